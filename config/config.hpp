@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The whole configuration as typed values with their defaults. The schema (config/schema.cpp) binds
+// every field to its TOML key, range and description.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "core/angle.hpp"
+#include "core/time.hpp"
+
+namespace convexcut::config {
+
+enum class LidarModel : std::uint8_t { automatic, hdl32e, vlp16, puck_hires, vlp32c };
+enum class CutMode : std::uint8_t { revolution, clock };
+enum class DualReturn : std::uint8_t { farthest, last, strongest, both };
+enum class MountOrientation : std::uint8_t { imu, fixed };
+enum class Method : std::uint8_t { paper };
+enum class LogLevel : std::uint8_t { error, warning, info, debug };
+enum class Reliability : std::uint8_t { reliable, best_effort };
+
+struct Lidar {
+  LidarModel model = LidarModel::automatic;
+  std::uint16_t data_port = 2368;
+  std::uint16_t position_port = 8308;
+  double min_range_m = 0.5;
+  double max_range_m = 100.0;
+  Degrees cut_azimuth{0.0};
+  CutMode cut = CutMode::revolution;
+  DualReturn dual_return = DualReturn::farthest;
+  std::int64_t time_offset_us = 0;  // added to every lidar time
+  bool vertical_offsets = false;    // per-beam focal-point offsets (HDL-32E, VLP-16)
+};
+
+struct Mount {
+  MountOrientation orientation = MountOrientation::imu;
+  Degrees roll{0.0};  // of the fixed mount: level ← lidar
+  Degrees pitch{0.0};
+  Degrees yaw{0.0};
+};
+
+struct Imu {
+  Degrees mount_roll{0.0};  // imu ← lidar
+  Degrees mount_pitch{0.0};
+  Degrees mount_yaw{0.0};
+  std::int64_t max_age_ms = 50;
+  std::uint32_t baud = 115200;  // the line's rate: the time that the bytes of a frame take
+};
+
+struct Can {
+  std::uint32_t bitrate = 250000;
+  std::uint32_t sample_time_id = 0x005;
+  std::uint32_t group_counter_id = 0x006;
+  std::uint32_t status_id = 0x011;
+  std::uint32_t quaternion_id = 0x021;
+  std::uint32_t euler_id = 0x022;
+  std::uint32_t rate_of_turn_id = 0x032;
+  std::uint32_t acceleration_id = 0x034;
+  bool extended_ids = false;
+};
+
+struct ConvexCut {
+  Method method = Method::paper;
+  std::uint32_t planes = 360;
+  double half_width_m = 0.05;
+  double hull_distance_m = 0.08;
+  std::uint32_t threads = 1;
+};
+
+struct Worker {
+  std::int64_t period_ms = 100;
+  std::int64_t latency_ms = 10;
+};
+
+struct Dds {
+  std::uint32_t domain = 0;
+  std::string profile;  // path of a Cyclone DDS XML file; empty: the built-in one
+  std::string structure_topic = "convexcut/structure";  // ROS names, without the rt/ of the wire
+  std::string points_topic = "convexcut/points";
+  std::string imu_topic = "imu/data";
+  std::string level_frame = "level";
+  std::string imu_frame = "imu";
+  Reliability reliability = Reliability::reliable;
+  std::int64_t max_blocking_ms = 50;
+};
+
+struct Log {
+  LogLevel level = LogLevel::info;
+};
+
+struct Config {
+  Lidar lidar;
+  Mount mount;
+  Imu imu;
+  Can can;
+  ConvexCut convex_cut;
+  Worker worker;
+  Dds dds;
+  Log log;
+};
+
+}  // namespace convexcut::config
