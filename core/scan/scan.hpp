@@ -17,6 +17,7 @@ enum class ScanEnd : std::uint8_t {
   cut,           // the cut azimuth (or the end of the clock window) was passed
   timeout,       // no cut came in time: the rotor stands still or turns too slowly
   end_of_input,  // the recording ended, or the source went away
+  no_data,       // no scan at all: the worker's empty result when the sensor is silent
 };
 
 // A firing of a scan: its returns are [first_return, first_return + return_count) of the scan.

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that are named as arguments' groups and missing here.
+#   scripts/install-packages.sh build|test …
+set -euo pipefail
+
+build=(build-essential cmake ninja-build pkg-config ca-certificates
+  libpcap-dev libeigen3-dev cyclonedds-dev cyclonedds-tools libtomlplusplus-dev libcli11-dev
+  libpng-dev libgtest-dev libgmock-dev libbenchmark-dev libboost-dev)
+check=(clang clang-format clang-tidy clang-tools libclang-rt-14-dev llvm python3 tshark)
+
+wanted=()
+for group in "$@"; do
+  case "$group" in
+    build) wanted+=("${build[@]}") ;;
+    test) wanted+=("${build[@]}" "${check[@]}") ;;
+    *) echo "install-packages.sh: unknown group '$group': expected build or test" >&2; exit 2 ;;
+  esac
+done
+
+missing=()
+for package in "${wanted[@]}"; do
+  state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$state" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" != 0 ]; then
+  command -v sudo >/dev/null || {
+    echo "install-packages.sh: these packages are missing and there is no sudo: ${missing[*]}" >&2
+    exit 1
+  }
+  as_root=(sudo)
+fi
+echo "Installing: ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

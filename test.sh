@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Builds and checks everything, as continuous integration does, and closes with the counts.
+#   ./test.sh            all of it (about 15 minutes on two cores)
+#   ./test.sh --quick    release build and its tests only
+#   ./test.sh STEP …     chosen steps: format release asan tsan fuzz bench tidy
+# FUZZ_SECONDS (20) is the time of each fuzz target.
+set -uo pipefail
+cd "$(dirname "$0")"
+
+case "${1:-}" in
+  -h | --help) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  --quick) steps=(format release) ;;
+  "") steps=(format release asan tsan fuzz bench tidy) ;;
+  *) steps=("$@") ;;
+esac
+
+scripts/install-packages.sh test || exit 1
+logs=build/logs
+mkdir -p "$logs"
+passed=0 failed=0 skipped=0
+declare -a failures=()
+
+# check NAME COMMAND…: one check of its own; its output is shown only when it fails.
+check() {
+  local name=$1 started=$SECONDS
+  shift
+  if "$@" >"$logs/$name.log" 2>&1; then
+    passed=$((passed + 1))
+    echo "ok      $name ($((SECONDS - started)) s)"
+  else
+    failed=$((failed + 1))
+    failures+=("$name: $logs/$name.log")
+    echo "FAILED  $name ($((SECONDS - started)) s), the end of $logs/$name.log:"
+    tail -n 40 "$logs/$name.log" | sed 's/^/        /'
+    return 1
+  fi
+}
+
+# ctest_preset PRESET [ctest options]: adds ctest's counts to ours.
+ctest_preset() {
+  local preset=$1 log="$logs/ctest-$1.log" started=$SECONDS
+  shift
+  ctest --test-dir "build/$preset" -j 2 --output-on-failure "$@" >"$log" 2>&1
+  local total bad skip
+  total=$(grep -cE '^ *[0-9]+/[0-9]+ Test +#' "$log")
+  skip=$(grep -cE '^ *[0-9]+/[0-9]+ Test +#.*(\*\*\*Skipped|Not Run)' "$log")
+  bad=$(grep -cE '^ *[0-9]+/[0-9]+ Test +#.*(\*\*\*Failed|\*\*\*Timeout|\*\*\*Exception|Subprocess aborted)' "$log")
+  passed=$((passed + total - skip - bad)) failed=$((failed + bad)) skipped=$((skipped + skip))
+  if [ "$total" = 0 ]; then
+    failed=$((failed + 1))
+    failures+=("ctest-$preset ran no test: $log")
+  fi
+  echo "$([ "$bad" = 0 ] && echo 'ok     ' || echo 'FAILED ') tests of $preset: $((total - skip - bad)) passed, $bad failed, $skip skipped ($((SECONDS - started)) s)"
+  [ "$skip" = 0 ] || echo "        skipped: $(grep -oE 'Test +#[0-9]+: [^ ]+ .*Skipped' "$log" | awk '{print $3}' | tr '\n' ' ')"
+  if [ "$bad" != 0 ]; then
+    failures+=("tests of $preset: $log")
+    grep -E '\*\*\*(Failed|Timeout|Exception)' "$log" | head -n 20 | sed 's/^/        /'
+  fi
+}
+
+build_preset() { cmake --preset "$1" "${@:2}" && cmake --build --preset "$1" -j 2; }
+
+for step in "${steps[@]}"; do
+  case "$step" in
+    format) check format scripts/check-format.sh ;;
+    release) check build-release build_preset release && ctest_preset release ;;
+    asan) check build-asan build_preset asan -DCONVEXCUT_BENCH=OFF && ctest_preset asan ;;
+    # Only what runs on several threads: the other tests cannot race.
+    tsan) check build-tsan build_preset tsan -DCONVEXCUT_BENCH=OFF && ctest_preset tsan -L threads ;;
+    fuzz)
+      if check build-fuzz build_preset fuzz; then
+        for target in build/fuzz/fuzz/fuzz_*; do
+          [ -x "$target" ] && [[ $target != *.* ]] && echo "$target"
+        done | xargs -P 2 -n 1 scripts/run-fuzzer.sh "${FUZZ_SECONDS:-20}"
+        for result in "$logs"/fuzz_*.result; do
+          check "$(basename "$result" .result)" cat "$result" "$(dirname "$result")/$(basename "$result" .result).ok"
+        done
+      fi
+      ;;
+    bench) check bench scripts/check-ratios.sh && sed -n 's/^figure: /        /p' "$logs/bench.log" ;;
+    tidy) check tidy scripts/check-tidy.sh ;;
+    *) echo "test.sh: unknown step '$step': expected format release asan tsan fuzz bench tidy" >&2; exit 2 ;;
+  esac
+done
+
+for failure in "${failures[@]}"; do echo "failed: $failure"; done
+echo "$passed passed, $failed failed, $skipped skipped"
+[ "$failed" = 0 ]
