@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/engine.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/convex_cut/cloud_check.hpp"
+
+namespace convexcut {
+namespace {
+
+// Planes that a thread takes at once. Neighbouring planes share most of their points, which are
+// still in the thread's cache; more at once would leave the team idle at the end.
+constexpr std::uint32_t kPlanesAtOnce = 8;
+
+constexpr std::size_t kMostPoints = std::size_t{1} << 31;
+
+[[nodiscard]] const ConvexCutParameters& checked(const ConvexCutParameters& parameters) {
+  if (!is_valid(parameters)) throw std::invalid_argument("Convex Cut parameters out of range");
+  return parameters;
+}
+
+[[nodiscard]] std::size_t checked(std::size_t max_points) {
+  if (max_points > kMostPoints) throw std::invalid_argument("Convex Cut: too many points");
+  return max_points;
+}
+
+}  // namespace
+
+ConvexCutEngine::ConvexCutEngine(const ConvexCutParameters& parameters, std::size_t max_points,
+                                 unsigned threads)
+    : parameters_(checked(parameters)),
+      index_(parameters.half_width_m, checked(max_points)),
+      structure_(max_points),
+      team_(threads) {
+  planes_.reserve(parameters.planes);
+  windows_.reserve(parameters.planes);
+  for (std::uint32_t i = 0; i < parameters.planes; ++i) {
+    planes_.push_back(slicing_plane(i, parameters.planes));
+    windows_.push_back(ShellIndex::windows(planes_.back()));
+  }
+  for (unsigned member = 0; member < team_.size(); ++member) {
+    workers_.push_back(std::make_unique<SliceWorker>(parameters, max_points));
+  }
+}
+
+CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels) noexcept {
+  if (cloud.size() > max_points()) return CutStatus::too_many_points;
+  const CloudCheck check = check_cloud(cloud, labels.size());
+  if (check.status != CutStatus::ok) return check.status;
+
+  index_.build(cloud);
+  std::fill_n(structure_.begin(), cloud.size(), std::uint8_t{0});
+  next_plane_.store(0, std::memory_order_relaxed);  // published by the team
+  auto work = [&](unsigned member) noexcept {
+    process_slices(*workers_[member], check.extent_m, cloud.size());
+  };
+  team_.run(work);
+
+  const std::span<const std::uint32_t> source = index_.source();
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    labels[source[i]] = structure_[i] != 0 ? Label::structure : Label::other;
+  }
+  return CutStatus::ok;
+}
+
+void ConvexCutEngine::process_slices(SliceWorker& worker, float extent_m,
+                                     std::size_t points) noexcept {
+  const std::span<std::uint8_t> structure = std::span(structure_).first(points);
+  const auto end = static_cast<std::uint32_t>(planes_.size());
+  // Relaxed: the counter only deals the planes out. Which thread takes one does not matter: the
+  // labels are a union.
+  for (std::uint32_t begin = next_plane_.fetch_add(kPlanesAtOnce, std::memory_order_relaxed);
+       begin < end; begin = next_plane_.fetch_add(kPlanesAtOnce, std::memory_order_relaxed)) {
+    for (std::uint32_t i = begin; i < std::min(begin + kPlanesAtOnce, end); ++i) {
+      worker.process(index_, planes_[i], windows_[i], extent_m, structure);
+    }
+  }
+}
+
+}  // namespace convexcut

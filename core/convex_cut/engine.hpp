@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Convex Cut for the worker thread: the labels of reference::label(), bit by bit, for every number
+// of threads, in a few milliseconds a revolution.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/cloud.hpp"
+#include "core/convex_cut/parameters.hpp"
+#include "core/convex_cut/shell_index.hpp"
+#include "core/convex_cut/slice_worker.hpp"
+#include "core/convex_cut/slicing_plane.hpp"
+#include "core/convex_cut/worker_team.hpp"
+
+namespace convexcut {
+
+class ConvexCutEngine {
+ public:
+  // Allocates everything it will ever need: about 20 bytes a point and 60 more for every thread.
+  // threads: that work on a cloud, with the calling one (0 counts as 1). Throws
+  // std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹,
+  // std::bad_alloc, and std::system_error when a thread cannot be started.
+  ConvexCutEngine(const ConvexCutParameters& parameters, std::size_t max_points, unsigned threads);
+
+  // Labels every point of a cloud in frame level. One thread at a time. On any answer but `ok` no
+  // label has been written. RT: no allocation, no lock; a system call only to wake the team.
+  [[nodiscard]] CutStatus label(const CloudView& cloud, std::span<Label> labels) noexcept;
+
+  [[nodiscard]] const ConvexCutParameters& parameters() const noexcept { return parameters_; }
+  [[nodiscard]] std::size_t max_points() const noexcept { return structure_.size(); }
+
+ private:
+  void process_slices(SliceWorker& worker, float extent_m, std::size_t points) noexcept;
+
+  ConvexCutParameters parameters_;
+  std::vector<SlicingPlane> planes_;
+  std::vector<ShellIndex::Windows> windows_;  // of each plane
+  ShellIndex index_;
+  std::vector<std::uint8_t> structure_;  // by position in the index
+  std::vector<std::unique_ptr<SliceWorker>> workers_;
+  std::atomic<std::uint32_t> next_plane_{0};  // of the cloud at hand
+  WorkerTeam team_;
+};
+
+}  // namespace convexcut

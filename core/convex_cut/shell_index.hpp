@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The points of a cloud sorted so that the candidates for a slice lie in a few contiguous ranges.
+//
+// A point at horizontal radius r is within d of a plane through the z axis only if its direction,
+// modulo 180°, is within asin(d/r) of the plane's. So the points are sorted by shell (a range of r)
+// and within a shell by direction: a plane's candidates in a shell are one range, or two where the
+// range passes 180°. Candidates are a superset: the caller decides on |v| < d.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/cloud.hpp"
+#include "core/convex_cut/slicing_plane.hpp"
+
+namespace convexcut {
+
+class ShellIndex {
+ public:
+  // Shell 0: r < √2·d, whose points are candidates of every plane; shell s: √2ˢ·d ≤ r < √2ˢ⁺¹·d;
+  // the last one is open. 24 shells reach 2900·d, beyond which a bucket is wider than any slice.
+  static constexpr std::size_t kShells = 24;
+  static constexpr std::size_t kBuckets = 1024;  // directions modulo 180°
+
+  // Positions [begin, end) of the sorted points.
+  struct Range {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+  };
+
+  // Allocates 18 bytes a point.
+  ShellIndex(double half_width_m, std::size_t max_points);
+
+  // Sorts a cloud of at most max_points points whose coordinates have been checked.
+  // RT: no allocation, no lock, no system call.
+  void build(const CloudView& cloud) noexcept;
+
+  // The sorted points, and where each one came from.
+  [[nodiscard]] CloudView points() const noexcept {
+    return {{x_.data(), size_}, {y_.data(), size_}, {z_.data(), size_}};
+  }
+  [[nodiscard]] std::span<const std::uint32_t> source() const noexcept {
+    return {source_.data(), size_};
+  }
+
+  // The buckets that a plane's slice touches in one shell: `count` from `first` on, wrapping.
+  struct Window {
+    std::uint16_t first = 0;
+    std::uint16_t count = 0;
+  };
+  using Windows = std::array<Window, kShells>;
+  [[nodiscard]] static Windows windows(const SlicingPlane& plane) noexcept;
+
+  // Calls visit(Range) for every range that may hold points of the slice.
+  template <class Visit>
+  void for_each_candidate_range(const Windows& windows, Visit&& visit) const noexcept {
+    for (std::size_t shell = 0; shell < kShells; ++shell) {
+      const std::uint32_t* const start = starts_.data() + shell * kBuckets;
+      if (start[0] == start[kBuckets]) continue;
+      const std::size_t first = windows[shell].first;
+      const std::size_t last = first + windows[shell].count;
+      const std::size_t wrapped = last > kBuckets ? last - kBuckets : 0;
+      if (start[first] != start[last - wrapped]) visit(Range{start[first], start[last - wrapped]});
+      if (wrapped > 0 && start[0] != start[wrapped]) visit(Range{start[0], start[wrapped]});
+    }
+  }
+
+ private:
+  float inverse_squared_half_width_;
+  std::size_t size_ = 0;
+  std::vector<float> x_, y_, z_;
+  std::vector<std::uint32_t> source_;
+  std::vector<std::uint16_t> keys_;    // shell · kBuckets + bucket, in the cloud's order
+  std::vector<std::uint32_t> starts_;  // of each key in the sorted points, and the end
+};
+
+}  // namespace convexcut

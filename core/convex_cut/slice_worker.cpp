@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/slice_worker.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "core/convex_cut/convex_hull.hpp"
+
+namespace convexcut {
+namespace {
+
+// Bound of the error of a depth estimate, as a part of the cloud's extent X. With |u| ≤ √2·X and
+// unit normals, its roundings sum up to 13.2·2⁻²⁴·X = 0.8e-6·X (design note, section "Tolerance").
+constexpr float kDepthErrorPerExtent = 2e-6F;
+
+// A slice of fewer members goes to the hull as it is.
+constexpr std::size_t kWorthCulling = 32;
+
+// Several workers set the same flag to the same value, and read it only to save themselves work.
+// Relaxed: it orders nothing; the end of the parallel section publishes the flags.
+void set_flag(std::uint8_t& flag) noexcept {
+  std::atomic_ref(flag).store(1, std::memory_order_relaxed);
+}
+[[nodiscard]] bool is_set(const std::uint8_t& flag) noexcept {
+  // C++20's atomic_ref takes no const object; a load does not change it.
+  return std::atomic_ref(const_cast<std::uint8_t&>(flag)).load(std::memory_order_relaxed) != 0;
+}
+
+[[nodiscard]] SlicePoint exact_point(const CloudView& sorted, const SlicingPlane& plane,
+                                     std::uint32_t position) noexcept {
+  return plane.project(sorted.x[position], sorted.y[position], sorted.z[position]);
+}
+
+// The reference's decision: any edge of the hull within the distance.
+[[nodiscard]] bool near_boundary(const SlicePoint& point, std::span<const SlicePoint> hull,
+                                 double distance_m) noexcept {
+  const SlicePoint* from = &hull.back();
+  for (const SlicePoint& to : hull) {
+    if (squared_distance(point, *from, to) <= distance_m * distance_m) return true;
+    from = &to;
+  }
+  return false;
+}
+
+}  // namespace
+
+SliceWorker::SliceWorker(const ConvexCutParameters& parameters, std::size_t max_points)
+    : half_width_m_(parameters.half_width_m),
+      hull_distance_m_(parameters.hull_distance_m),
+      u_(max_points + kKernelBlock),
+      z_(max_points + kKernelBlock),
+      depth_(max_points + kKernelBlock),
+      position_(max_points + kKernelBlock),
+      candidates_(std::max(max_points, kExtremes)),
+      vertices_(std::max(max_points, kExtremes) + 1),
+      normal_u_(std::max(max_points, kExtremes)),
+      normal_z_(std::max(max_points, kExtremes)),
+      edge_offset_(std::max(max_points, kExtremes)) {}
+
+void SliceWorker::process(const ShellIndex& index, const SlicingPlane& plane,
+                          const ShellIndex::Windows& windows, float extent_m,
+                          std::span<std::uint8_t> structure) noexcept {
+  tolerance_m_ = kDepthErrorPerExtent * extent_m;
+  const CloudView sorted = index.points();
+  cut(index, plane, windows);
+  const std::size_t candidates = select(sorted, plane, structure);
+  const std::span<const SlicePoint> hull =
+      convex_hull(std::span(candidates_).first(candidates), vertices_);
+  keep(sorted, plane, hull, structure);
+}
+
+void SliceWorker::cut(const ShellIndex& index, const SlicingPlane& plane,
+                      const ShellIndex::Windows& windows) noexcept {
+  const CloudView sorted = index.points();
+  count_ = 0;
+  index.for_each_candidate_range(windows, [&](ShellIndex::Range range) {
+    count_ = gather(sorted, range, plane, half_width_m_, members(), count_);
+  });
+}
+
+std::span<const SlicePoint> SliceWorker::inscribed_polygon(const CloudView& sorted,
+                                                           const SlicingPlane& plane) noexcept {
+  const std::array<std::size_t, kExtremes> outer = extremes(members(), count_);
+  for (std::size_t k = 0; k < kExtremes; ++k) {
+    candidates_[k] = exact_point(sorted, plane, position_[outer[k]]);
+  }
+  return convex_hull(std::span(candidates_).first(kExtremes), vertices_);
+}
+
+// Leaves the members that this slice may still make structure, and returns how many candidates for
+// the hull it has written.
+std::size_t SliceWorker::select(const CloudView& sorted, const SlicingPlane& plane,
+                                std::span<const std::uint8_t> structure) noexcept {
+  if (count_ < kWorthCulling) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      candidates_[i] = exact_point(sorted, plane, position_[i]);
+    }
+    return count_;
+  }
+  const std::span<const SlicePoint> polygon = inscribed_polygon(sorted, plane);
+  if (polygon.size() < 3) {
+    std::fill_n(depth_.begin(), count_, -1.0F);  // everything is outside of nothing
+  } else {
+    set_edges(polygon);
+    depth_within(edges(), polygon.size(), members(), count_, depth_.data());
+  }
+  const float reach_m = static_cast<float>(hull_distance_m_) + tolerance_m_;
+  std::size_t undecided = 0;
+  std::size_t candidates = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const std::uint32_t position = position_[i];
+    if (depth_[i] <= tolerance_m_) candidates_[candidates++] = exact_point(sorted, plane, position);
+    u_[undecided] = u_[i];
+    z_[undecided] = z_[i];
+    position_[undecided] = position;
+    undecided += static_cast<std::size_t>(depth_[i] <= reach_m && !is_set(structure[position]));
+  }
+  count_ = undecided;
+  return candidates;
+}
+
+void SliceWorker::keep(const CloudView& sorted, const SlicingPlane& plane,
+                       std::span<const SlicePoint> hull,
+                       std::span<std::uint8_t> structure) noexcept {
+  if (hull.size() < 3) {
+    for (std::size_t i = 0; i < count_; ++i) set_flag(structure[position_[i]]);
+    return;
+  }
+  set_edges(hull);
+  depth_within(edges(), hull.size(), members(), count_, depth_.data());
+  const float e = static_cast<float>(hull_distance_m_);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const std::uint32_t position = position_[i];
+    if (depth_[i] > e + tolerance_m_) continue;
+    if (depth_[i] < e - tolerance_m_ ||
+        near_boundary(exact_point(sorted, plane, position), hull, hull_distance_m_)) {
+      set_flag(structure[position]);
+    }
+  }
+}
+
+void SliceWorker::set_edges(std::span<const SlicePoint> polygon) noexcept {
+  SlicePoint from = polygon.back();
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const SlicePoint to = polygon[k];
+    const double edge_u = to.u - from.u;
+    const double edge_z = to.z - from.z;
+    const double length = std::sqrt(edge_u * edge_u + edge_z * edge_z);
+    // Counter-clockwise: the inside is on the left.
+    const double normal_u = -edge_z / length;
+    const double normal_z = edge_u / length;
+    normal_u_[k] = static_cast<float>(normal_u);
+    normal_z_[k] = static_cast<float>(normal_z);
+    edge_offset_[k] = static_cast<float>(normal_u * to.u + normal_z * to.z);
+    from = to;
+  }
+}
+
+}  // namespace convexcut
