@@ -73,6 +73,22 @@ struct LevelledScan {
 
   [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
   [[nodiscard]] CloudView cloud() const noexcept { return {x, y, z}; }
+
+  // Empty, with the capacity that it had.
+  void clear() noexcept {
+    index = 0;
+    end = ScanEnd::cut;
+    stamp = last_firing = {};
+    coverage = 0.0;
+    dropped_no_orientation = overflow_returns = structure_points = 0;
+    x.clear();
+    y.clear();
+    z.clear();
+    intensity.clear();
+    ring.clear();
+    time_ns.clear();
+    label.clear();
+  }
 };
 
 }  // namespace convexcut

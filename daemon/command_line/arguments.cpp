@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/command_line/arguments.hpp"
+
+#include <cstdio>
+#include <exception>
+
+#include "config/loader.hpp"
+
+namespace convexcut::command_line {
+namespace {
+
+// The command that the user meant, for "see … --help".
+std::string full_name(const CLI::App& root) {
+  const auto chosen = root.get_subcommands();
+  return root.get_name() + (chosen.empty() ? "" : " " + chosen.front()->get_name());
+}
+
+int fail(const std::string& who, const std::string& what, int status) {
+  std::fprintf(stderr, "%s: %s\n", who.c_str(), what.c_str());
+  return status;
+}
+
+}  // namespace
+
+void ConfigArguments::add_to(CLI::App& app) {
+  app.add_option("--config", file, "Configuration file (TOML); every key has a default")
+      ->type_name("FILE");
+  app.add_option("--set", overrides, "Override one configuration key, e.g. lidar.min_range_m=0.3")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+config::Config ConfigArguments::load() const { return config::load(file, overrides); }
+
+void RecordingArguments::add_to(CLI::App& app, bool lidar_required) {
+  app.add_option("--lidar", paths.lidar, "Lidar packets: pcap or pcapng")
+      ->type_name("FILE")
+      ->required(lidar_required);
+  app.add_option("--imu", paths.imu, "IMU: pcap of stamped serial reads (USER0) or raw .bin stream")
+      ->type_name("FILE");
+  app.add_option("--can", paths.can, "CAN: candump -L log or pcap (CAN_SOCKETCAN)")
+      ->type_name("FILE");
+  app.add_option_function<double>(
+         "--imu-start",
+         [this](double offset_s) {
+           paths.imu_start = Duration{static_cast<Duration::rep>(offset_s * 1e9)};
+         },
+         "When a raw .bin IMU stream starts, after the first lidar packet (default 0)")
+      ->type_name("SECONDS");
+}
+
+int run_program(CLI::App& root, int argc, char** argv, const std::function<int()>& run) {
+  try {
+    root.parse(argc, argv);
+    return run();
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return root.exit(error);  // --help, --version
+    return fail(root.get_name(),
+                std::string(error.what()) + " (see " + full_name(root) + " --help)", kUsage);
+  } catch (const config::ConfigError& error) {
+    return fail(full_name(root), error.what(), kUsage);
+  } catch (const UsageError& error) {
+    return fail(full_name(root), error.what(), kUsage);
+  } catch (const std::exception& error) {
+    return fail(full_name(root), error.what(), kFailed);
+  }
+}
+
+}  // namespace convexcut::command_line

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the command lines of all programs have in common.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "config/config.hpp"
+#include "daemon/command_line/exit_status.hpp"
+#include "daemon/sources/recordings.hpp"
+
+namespace convexcut::command_line {
+
+// --config and --set.
+struct ConfigArguments {
+  std::optional<std::filesystem::path> file;
+  std::vector<std::string> overrides;
+
+  void add_to(CLI::App& app);
+  // Throws config::ConfigError.
+  [[nodiscard]] config::Config load() const;
+};
+
+// --lidar, --imu, --can and --imu-start.
+struct RecordingArguments {
+  daemon::RecordingPaths paths;
+
+  void add_to(CLI::App& app, bool lidar_required);
+};
+
+// A program's body: parses, runs, and turns exceptions into one line on stderr and an exit status.
+[[nodiscard]] int run_program(CLI::App& root, int argc, char** argv,
+                              const std::function<int()>& run);
+
+}  // namespace convexcut::command_line

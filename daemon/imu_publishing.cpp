@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/imu_publishing.hpp"
+
+#include <chrono>
+#include <thread>
+
+namespace convexcut::daemon {
+namespace {
+
+// Below the 2.5 ms of a 400 Hz IMU.
+constexpr auto kNap = std::chrono::milliseconds{1};
+
+}  // namespace
+
+void ImuPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>& input_ended) {
+  // Relaxed: the flag only ends the loop, it publishes nothing.
+  while (!stop.load(std::memory_order_relaxed)) {
+    // Before looking into the ring. Acquire: pairs with the release store after the source's last
+    // commit, so that an empty ring then stays empty.
+    const bool ended = input_ended.load(std::memory_order_acquire);
+    const ImuSample* sample = samples_.front();
+    if (sample != nullptr) {
+      publish(*sample);
+      samples_.pop();
+    } else if (ended) {
+      return;
+    } else {
+      std::this_thread::sleep_for(kNap);
+    }
+  }
+}
+
+void ImuPublishing::publish(const ImuSample& sample) {
+  HostTime stamp = sample.arrival;
+  if (sample.has_device_time) {
+    clock_.observe(sample.device_time, sample.arrival);
+    stamp = clock_.to_host(sample.device_time);
+  }
+  publisher_.publish(sample, stamp);
+}
+
+}  // namespace convexcut::daemon

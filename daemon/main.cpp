@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// convexcutd: the daemon. See `convexcutd --help`.
+#include <charconv>
+#include <cmath>
+
+#include <signal.h>
+
+#include "daemon/command_line/arguments.hpp"
+#include "daemon/daemon.hpp"
+#include "daemon/log/log.hpp"
+
+namespace {
+
+using namespace convexcut;
+
+// "max" → 0, which is how the clock spells it.
+double parse_rate(const std::string& text) {
+  if (text == "max") return 0.0;
+  double rate = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rate);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(rate) ||
+      rate <= 0.0) {
+    throw command_line::UsageError("--rate: expected a number above 0 or max, found \"" + text +
+                                   "\"");
+  }
+  return rate;
+}
+
+// Every thread inherits this: only Daemon::run() takes the signals, by asking for them.
+void block_stop_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+struct Arguments {
+  command_line::RecordingArguments recordings;
+  command_line::ConfigArguments config;
+  std::string rate = "1";
+  double wait_for_reader_s = 0.0;
+};
+
+int run(const Arguments& args) {
+  daemon::DaemonOptions options;
+  options.config = args.config.load();
+  options.rate = parse_rate(args.rate);
+  options.recordings = args.recordings.paths;
+  options.wait_for_reader = Duration{static_cast<Duration::rep>(args.wait_for_reader_s * 1e9)};
+  daemon::log::set_level(options.config.log.level);
+  block_stop_signals();
+  daemon::Daemon(options).run();
+  return command_line::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App root(
+      "Publishes the structure of a room (walls, floor, ceiling) over DDS, ten times a second, "
+      "from a "
+      "Velodyne lidar and an Xsens IMU.",
+      "convexcutd");
+  root.set_version_flag("--version", "convexcutd " CONVEXCUT_VERSION);
+  Arguments args;
+  args.recordings.add_to(root, true);
+  args.config.add_to(root);
+  root.add_option("--rate", args.rate, "Recorded seconds per second, or max (default 1)")
+      ->type_name("X|max");
+  root.add_option("--wait-for-reader", args.wait_for_reader_s,
+                  "Start when somebody listens, or after this time (default 0)")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->type_name("SECONDS");
+  root.footer(
+      "Exit status: 0 done, 1 failed while running, 2 wrong usage or configuration.\n"
+      "Example:\n"
+      "  convexcutd --lidar lidar.pcap --imu imu.pcap &\n"
+      "  convexcut watch");
+  return command_line::run_program(root, argc, argv, [&args] { return run(args); });
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/pipeline/pipeline.hpp"
+
+#include <utility>
+
+namespace convexcut::daemon {
+namespace {
+
+// A PPS-locked sensor counts UTC. When the host's clock is further than this from it (arrival delay
+// included), IMU and lidar would no longer meet in one clock, so the envelope is used instead.
+constexpr Duration kPpsAgreement = std::chrono::milliseconds{100};
+
+// 2 s of a 400 Hz IMU: more than any scan spans and waits.
+constexpr std::size_t kOrientations = 1024;
+
+}  // namespace
+
+Pipeline::Pipeline(const PipelineOptions& options)
+    : options_(options),
+      cutter_(options.cut, kMaxReturnsPerScan, kMaxFiringsPerScan),
+      track_(kOrientations, options.orientation_max_age),
+      engine_(options.convex_cut, kMaxReturnsPerScan, options.threads) {
+  for (Scan& scan : waiting_) reserve(scan, kMaxReturnsPerScan, kMaxFiringsPerScan);
+}
+
+void Pipeline::on_lidar(const ReturnBatch& batch) noexcept {
+  pps_ = batch.pps;
+  const LidarTime first_firing = hour_clock_.unwrap(batch.first_firing, batch.arrival);
+  lidar_clock_.observe(first_firing, batch.arrival - batch.span());
+  sequencer_.push(batch, first_firing, [this](const ReturnBatch& in_order, LidarTime t) {
+    cutter_.push(in_order, t, [this](Scan& scan) { wait_for_orientation(scan); });
+  });
+}
+
+void Pipeline::on_imu(const ImuSample& sample) noexcept {
+  HostTime time = sample.arrival;
+  if (sample.has_device_time) {
+    imu_clock_.observe(sample.device_time, sample.arrival);
+    time = imu_clock_.to_host(sample.device_time);
+    if (const std::uint32_t steps = imu_clock_.state().steps; steps != imu_clock_steps_) {
+      // The orientations so far were placed by a clock that has since been stepped.
+      imu_clock_steps_ = steps;
+      track_.clear();
+    }
+  }
+  if (!sample.has_orientation) return;
+  ++(track_.push(time, sample.q_level_from_imu) ? orientations_ : orientations_refused_);
+}
+
+void Pipeline::end_of_lidar() noexcept {
+  const auto take = [this](Scan& scan) { wait_for_orientation(scan); };
+  sequencer_.flush(
+      [this, &take](const ReturnBatch& in_order, LidarTime t) { cutter_.push(in_order, t, take); });
+  cutter_.finish(take);
+}
+
+void Pipeline::wait_for_orientation(Scan& scan) noexcept {
+  ++scans_cut_;
+  if (scan.rotor_hz > 0.0) rotor_hz_ = scan.rotor_hz;
+  if (waiting_count_ == kMaxWaiting) {
+    ++scans_dropped_;
+    return;
+  }
+  std::swap(scan, waiting_[(first_waiting_ + waiting_count_) % kMaxWaiting]);
+  ++waiting_count_;
+}
+
+bool Pipeline::ready(const Scan& scan, HostTime now) const noexcept {
+  if (options_.fixed_mount || imu_ended_) return true;
+  const HostTime last = to_host(scan.last_firing);
+  const auto newest = track_.newest();
+  return (newest && *newest >= last) || now >= last + options_.orientation_wait;
+}
+
+bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
+  if (waiting_count_ == 0) return false;
+  const Scan& scan = waiting_[first_waiting_];
+  if (!ready(scan, now)) return false;
+
+  const HostTime stamp = to_host(scan.first_firing);
+  if (options_.fixed_mount) {
+    level(scan, stamp, options_.q_level_from_lidar, out);
+  } else {
+    level(scan, stamp, track_, options_.q_imu_from_lidar, out);
+  }
+  // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
+  // ever, every point would keep the label `other`.
+  static_cast<void>(engine_.label(out.cloud(), out.label));
+  out.structure_points = 0;
+  for (const Label label : out.label) out.structure_points += label == Label::structure ? 1U : 0U;
+
+  first_waiting_ = (first_waiting_ + 1) % kMaxWaiting;
+  --waiting_count_;
+  return true;
+}
+
+HostTime Pipeline::to_host(LidarTime t) const noexcept {
+  if (lidar_time_source() == LidarTimeSource::pps) return HostTime{t.time_since_epoch()};
+  return lidar_clock_.to_host(t);
+}
+
+LidarTimeSource Pipeline::lidar_time_source() const noexcept {
+  const ClockState clock = lidar_clock_.state();
+  if (clock.samples == 0) return LidarTimeSource::none;
+  const bool agrees = clock.offset >= -kPpsAgreement && clock.offset <= kPpsAgreement;
+  return pps_ == PpsState::locked && agrees ? LidarTimeSource::pps : LidarTimeSource::envelope;
+}
+
+}  // namespace convexcut::daemon

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The way of the data, from decoded samples to a labelled scan, the same for the daemon and for
+// `convexcut process`:
+//
+//   batches → unwrap and map time → put in order → cut into scans ┐
+//   samples → map time → orientation track ───────────────────────┴→ level → Convex Cut → scan
+//
+// Knows no bytes, files, threads or topics. One thread calls it. RT after construction: allocates
+// nothing, blocks only for the engine's own threads, throws nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "config/config.hpp"
+#include "core/clock/clock_mapping.hpp"
+#include "core/clock/hour_clock.hpp"
+#include "core/convex_cut/engine.hpp"
+#include "core/imu_sample.hpp"
+#include "core/return_batch.hpp"
+#include "core/scan/levelling.hpp"
+#include "core/scan/orientation_track.hpp"
+#include "core/scan/packet_sequencer.hpp"
+#include "core/scan/scan.hpp"
+#include "core/scan/scan_cutter.hpp"
+
+namespace convexcut::daemon {
+
+// Where the host time of the lidar's firings comes from.
+enum class LidarTimeSource : std::uint8_t {
+  none,      // no packet yet
+  envelope,  // estimated from arrival stamps
+  pps,       // the sensor's own UTC: PPS locked, and not at odds with the host's clock
+};
+
+struct PipelineOptions {
+  CutOptions cut;
+  ConvexCutParameters convex_cut;
+  unsigned threads = 1;
+  bool fixed_mount = false;
+  Quaternion q_level_from_lidar = Quaternion::Identity();  // of the fixed mount
+  Quaternion q_imu_from_lidar = Quaternion::Identity();
+  Duration orientation_max_age = std::chrono::milliseconds{50};
+  // How long after its last firing a scan waits for the orientation of its last points.
+  Duration orientation_wait = std::chrono::milliseconds{50};
+};
+
+// The options that a configuration asks for. `threads` overrides convex_cut.threads when not 0.
+[[nodiscard]] PipelineOptions pipeline_options(const config::Config& config, unsigned threads = 0);
+
+class Pipeline {
+ public:
+  // One revolution at 5 Hz with both echoes of every firing: 4340 firings × 32 lasers × 2.
+  static constexpr std::size_t kMaxReturnsPerScan = 280'000;
+  static constexpr std::size_t kMaxFiringsPerScan = 8'800;
+
+  explicit Pipeline(const PipelineOptions& options);
+
+  // In order of arrival.
+  void on_lidar(const ReturnBatch& batch) noexcept;
+  void on_imu(const ImuSample& sample) noexcept;
+  // No more will come: the last revolution is closed, waiting scans no longer wait for
+  // orientations.
+  void end_of_lidar() noexcept;
+  void end_of_imu() noexcept { imu_ended_ = true; }
+
+  // Levels and labels the oldest scan into `out` if it is ready at `now`: its orientations are all
+  // there, or will not come in time. False: none is ready.
+  [[nodiscard]] bool next_scan(HostTime now, LevelledScan& out) noexcept;
+
+  // Scans that are cut but not yet ready.
+  [[nodiscard]] std::size_t waiting() const noexcept { return waiting_count_; }
+
+  // Host time of an instant of the lidar, as known now.
+  [[nodiscard]] HostTime to_host(LidarTime t) const noexcept;
+  [[nodiscard]] LidarTimeSource lidar_time_source() const noexcept;
+  [[nodiscard]] ClockState lidar_clock() const noexcept { return lidar_clock_.state(); }
+  [[nodiscard]] ClockState imu_clock() const noexcept { return imu_clock_.state(); }
+  [[nodiscard]] const PacketSequencer& sequencer() const noexcept { return sequencer_; }
+  [[nodiscard]] double rotor_hz() const noexcept { return rotor_hz_; }
+  [[nodiscard]] std::uint64_t scans_cut() const noexcept { return scans_cut_; }
+  // Scans that were dropped because too many waited (the caller never called next_scan).
+  [[nodiscard]] std::uint64_t scans_dropped() const noexcept { return scans_dropped_; }
+  [[nodiscard]] std::uint64_t orientations_refused() const noexcept {
+    return orientations_refused_;
+  }
+  [[nodiscard]] std::uint64_t orientations() const noexcept { return orientations_; }
+
+ private:
+  static constexpr std::size_t kMaxWaiting = 4;
+
+  void wait_for_orientation(Scan& scan) noexcept;
+  [[nodiscard]] bool ready(const Scan& scan, HostTime now) const noexcept;
+
+  PipelineOptions options_;
+  HourClock hour_clock_;
+  ClockMapping<LidarTime> lidar_clock_;
+  ClockMapping<ImuTime> imu_clock_;
+  PacketSequencer sequencer_;
+  ScanCutter cutter_;
+  OrientationTrack track_;
+  ConvexCutEngine engine_;
+
+  std::array<Scan, kMaxWaiting> waiting_;  // a ring: first_waiting_ is the oldest
+  std::size_t first_waiting_ = 0;
+  std::size_t waiting_count_ = 0;
+
+  PpsState pps_ = PpsState::unknown;
+  bool imu_ended_ = false;
+  std::uint32_t imu_clock_steps_ = 0;
+  double rotor_hz_ = 0.0;
+  std::uint64_t scans_cut_ = 0;
+  std::uint64_t scans_dropped_ = 0;
+  std::uint64_t orientations_ = 0;
+  std::uint64_t orientations_refused_ = 0;
+};
+
+}  // namespace convexcut::daemon

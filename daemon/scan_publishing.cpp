@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/scan_publishing.hpp"
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+namespace convexcut::daemon {
+namespace {
+
+// How often an empty ring is looked at: well below the latency that results have in hand.
+constexpr auto kNap = std::chrono::microseconds{500};
+
+}  // namespace
+
+ScanPublishing::ScanPublishing(const Participant& participant, const config::Dds& settings,
+                               Duration latency, const PlaybackClock& clock,
+                               SpscRing<LevelledScan>& results,
+                               std::function<void(ScanStatus&)> complete)
+    : publisher_(participant, settings),
+      status_publisher_(participant, settings),
+      latency_(latency),
+      clock_(clock),
+      results_(results),
+      complete_(std::move(complete)) {}
+
+void ScanPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>& worker_done) {
+  // Relaxed: the flag only ends the loop, it publishes nothing.
+  while (!stop.load(std::memory_order_relaxed)) {
+    // Before looking into the ring. Acquire: pairs with the release store after the worker's last
+    // commit, so that an empty ring then stays empty.
+    const bool done = worker_done.load(std::memory_order_acquire);
+    const LevelledScan* scan = results_.front();
+    if (scan != nullptr) {
+      publish(*scan);
+      results_.pop();
+    } else if (done) {
+      return;
+    } else {
+      std::this_thread::sleep_for(kNap);
+    }
+  }
+}
+
+void ScanPublishing::publish(const LevelledScan& scan) {
+  const HostTime due = scan.last_firing + latency_;
+  const bool late = clock_.paced() && clock_.now() > due;
+  clock_.wait_until(due);
+  const PublishStatus structure = publisher_.publish_structure(scan);
+  const Duration latency = clock_.now() - scan.last_firing;
+  const PublishStatus points = publisher_.publish_points(scan);
+
+  counters_.published.add();
+  if (late) counters_.late.add();
+  for (const PublishStatus status : {structure, points}) {
+    if (status == PublishStatus::timed_out) counters_.timed_out.add();
+  }
+
+  ScanStatus status;
+  status.stamp = scan.stamp;
+  status.index = scan.index;
+  status.end = scan.end;
+  status.late = late;
+  status.points = static_cast<std::uint32_t>(scan.size());
+  status.structure_points = scan.structure_points;
+  status.dropped_no_orientation = scan.dropped_no_orientation;
+  status.overflow_returns = scan.overflow_returns;
+  status.coverage = scan.coverage;
+  status.latency = latency;
+  status.late_scans_total = counters_.late.value();
+  status.publish_timeouts_total = counters_.timed_out.value();
+  complete_(status);
+  status_publisher_.publish(status);
+}
+
+}  // namespace convexcut::daemon
