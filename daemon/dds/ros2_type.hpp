@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The message types on our topics, with what ROS 2 wants to know of them.
+#pragma once
+
+#include <string_view>
+
+#include <dds/dds.h>
+
+#include "daemon/dds/ros2.h"
+
+namespace convexcut::daemon {
+
+struct Ros2Type {
+  const dds_topic_descriptor_t* descriptor;
+  // ROS 2's type hash (REP-2011). Endpoints tell theirs; one that does not costs every ROS 2
+  // process (Iron and later) a warning. It is not used for matching.
+  std::string_view type_hash;
+};
+
+inline const Ros2Type kPointCloud2Type{
+    &sensor_msgs_msg_dds__PointCloud2__desc,
+    "RIHS01_9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5"};
+inline const Ros2Type kImuType{
+    &sensor_msgs_msg_dds__Imu__desc,
+    "RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b"};
+inline const Ros2Type kScanStatusType{
+    &convexcut_msg_dds__ScanStatus__desc,
+    "RIHS01_12b882d5896b5060da3839516429349478564036015c07df24c06b36664711e7"};
+
+}  // namespace convexcut::daemon
