@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The names that the enumerations of the configuration have in files and on the command line.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "config/config.hpp"
+
+namespace convexcut::config {
+
+// kNames<E>[i] is the name of the enumerator of value i.
+template <class Enum>
+inline constexpr std::array<std::string_view, 0> kNames{};
+
+template <>
+inline constexpr std::array<std::string_view, 5> kNames<LidarModel>{"auto", "hdl32e", "vlp16",
+                                                                    "puck_hires", "vlp32c"};
+template <>
+inline constexpr std::array<std::string_view, 2> kNames<CutMode>{"revolution", "clock"};
+template <>
+inline constexpr std::array<std::string_view, 4> kNames<DualReturn>{"farthest", "last", "strongest",
+                                                                    "both"};
+template <>
+inline constexpr std::array<std::string_view, 2> kNames<MountOrientation>{"imu", "fixed"};
+template <>
+inline constexpr std::array<std::string_view, 1> kNames<Method>{"paper"};
+template <>
+inline constexpr std::array<std::string_view, 4> kNames<LogLevel>{"error", "warning", "info",
+                                                                  "debug"};
+template <>
+inline constexpr std::array<std::string_view, 2> kNames<Reliability>{"reliable", "best_effort"};
+
+static_assert(kNames<LidarModel>[static_cast<std::size_t>(LidarModel::vlp32c)] == "vlp32c");
+static_assert(kNames<CutMode>[static_cast<std::size_t>(CutMode::clock)] == "clock");
+static_assert(kNames<DualReturn>[static_cast<std::size_t>(DualReturn::both)] == "both");
+static_assert(kNames<MountOrientation>[static_cast<std::size_t>(MountOrientation::fixed)] ==
+              "fixed");
+static_assert(kNames<Method>[static_cast<std::size_t>(Method::paper)] == "paper");
+static_assert(kNames<LogLevel>[static_cast<std::size_t>(LogLevel::debug)] == "debug");
+static_assert(kNames<Reliability>[static_cast<std::size_t>(Reliability::best_effort)] ==
+              "best_effort");
+
+template <class Enum>
+[[nodiscard]] constexpr std::string_view name_of(Enum value) noexcept {
+  return kNames<Enum>[static_cast<std::size_t>(value)];
+}
+
+}  // namespace convexcut::config

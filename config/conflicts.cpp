@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/conflicts.hpp"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "config/schema.hpp"
+#include "config/value_text.hpp"
+
+namespace convexcut::config {
+namespace {
+
+constexpr std::uint32_t kStandardCanIds = 0x7FF;
+
+class Conflicts {
+ public:
+  explicit Conflicts(const Config& config) : config_(config) {}
+
+  void add(std::vector<std::string_view> keys, std::string text) {
+    found_.push_back({std::move(keys), std::move(text)});
+  }
+
+  void require_less(std::string_view a, std::string_view b) {
+    if (number(a) < number(b)) return;
+    add({a, b}, concat("expected ", a, " < ", b, ", found ", shown(a), " and ", shown(b)));
+  }
+
+  // All pairs of the keys.
+  template <std::size_t N>
+  void require_different(const std::array<std::string_view, N>& keys) {
+    for (std::size_t i = 0; i < N; ++i) {
+      for (std::size_t j = i + 1; j < N; ++j) {
+        if (value(keys[i]) != value(keys[j])) continue;
+        add({keys[i], keys[j]}, concat("expected ", keys[i], " and ", keys[j], " to differ, found ",
+                                       shown(keys[i]), " for both"));
+      }
+    }
+  }
+
+  void require_standard_id(std::string_view key) {
+    if (number(key) <= kStandardCanIds) return;
+    add({key, "can.extended_ids"},
+        concat("expected at most 0x7ff without can.extended_ids, found ", key, " = ", shown(key)));
+  }
+
+  [[nodiscard]] std::vector<Conflict> take() { return std::move(found_); }
+
+ private:
+  [[nodiscard]] Value value(std::string_view key) const { return find_key(key)->get(config_); }
+  [[nodiscard]] double number(std::string_view key) const {
+    const Value v = value(key);
+    const auto* integer = std::get_if<std::int64_t>(&v);
+    return integer != nullptr ? static_cast<double>(*integer) : std::get<double>(v);
+  }
+  [[nodiscard]] std::string shown(std::string_view key) const {
+    return to_toml(value(key), find_key(key)->domain);
+  }
+
+  const Config& config_;
+  std::vector<Conflict> found_;
+};
+
+std::optional<std::string> user_of_port(std::uint32_t domain, std::uint16_t port) {
+  constexpr std::uint32_t kBase = 7400;
+  constexpr std::uint32_t kDomainGain = 250;
+  constexpr std::uint32_t kFirstParticipant = 10;
+  constexpr std::uint32_t kPortsPerParticipant = 2;
+  constexpr std::uint32_t kLastParticipant = 32;
+  const std::uint32_t first = kBase + kDomainGain * domain;
+  if (port < first) return std::nullopt;
+  const std::uint32_t offset = port - first;
+  const std::string of_domain =
+      "port " + std::to_string(port) + " is used by DDS domain " + std::to_string(domain);
+  if (offset <= 1) return of_domain + " for multicast";
+  if (offset < kFirstParticipant) return std::nullopt;
+  const std::uint32_t participant = (offset - kFirstParticipant) / kPortsPerParticipant;
+  if (participant > kLastParticipant) return std::nullopt;
+  return of_domain + " for its participant " + std::to_string(participant);
+}
+
+}  // namespace
+
+std::optional<std::string> port_collision(std::uint32_t domain, std::uint16_t data_port,
+                                          std::uint16_t position_port) {
+  std::optional<std::string> user = user_of_port(domain, data_port);
+  return user ? user : user_of_port(domain, position_port);
+}
+
+std::vector<Conflict> find_conflicts(const Config& config) {
+  constexpr std::array<std::string_view, 7> kCanIds{
+      "can.sample_time_id", "can.group_counter_id", "can.status_id",      "can.quaternion_id",
+      "can.euler_id",       "can.rate_of_turn_id",  "can.acceleration_id"};
+  Conflicts conflicts(config);
+  conflicts.require_less("lidar.min_range_m", "lidar.max_range_m");
+  conflicts.require_less("worker.latency_ms", "worker.period_ms");
+  conflicts.require_different(
+      std::array<std::string_view, 2>{"lidar.data_port", "lidar.position_port"});
+  conflicts.require_different(kCanIds);
+  if (!config.can.extended_ids) {
+    for (const std::string_view id : kCanIds) conflicts.require_standard_id(id);
+  }
+  conflicts.require_different(
+      std::array<std::string_view, 3>{"dds.structure_topic", "dds.points_topic", "dds.imu_topic"});
+  conflicts.require_different(std::array<std::string_view, 2>{"dds.level_frame", "dds.imu_frame"});
+  const auto collision =
+      port_collision(config.dds.domain, config.lidar.data_port, config.lidar.position_port);
+  if (collision) {
+    conflicts.add({"dds.domain", "lidar.data_port", "lidar.position_port"},
+                  "expected ports of the lidar that DDS does not use, but " + *collision);
+  }
+  return conflicts.take();
+}
+
+}  // namespace convexcut::config

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <limits>
+
+#include "config/binding.hpp"
+#include "config/schema.hpp"
+#include "config/text_rules.hpp"
+
+namespace convexcut::config {
+namespace {
+
+constexpr Text kTopic{"a ROS topic name without leading slash (letters, digits, _ and /)",
+                      is_topic_name};
+constexpr Text kFrame{"a frame name without spaces and leading slash", is_frame_name};
+constexpr Text kPath{"a path, or nothing", is_path_or_empty};
+constexpr Text kInterface{"the name of a network interface (at most 15 characters), or nothing",
+                          is_interface_or_empty};
+
+constexpr Number kTurn{-360.0, 360.0};
+constexpr Integer kPort{1, 65535};
+constexpr Integer kCanId{0, 0x1FFFFFFF, Integer::Notation::hexadecimal};
+constexpr std::int64_t kHourInMicroseconds = 3'600'000'000;
+constexpr std::int64_t kLastDomain = 232;  // beyond it the ports of DDS do not fit 16 bits
+
+constexpr std::array kSections{
+    Section{"lidar", "The lidar: which model, what of it is used, and where scans are cut."},
+    Section{"mount", "How the lidar is mounted, where no IMU tells."},
+    Section{"imu", "The serial IMU and how it sits on the lidar."},
+    Section{"can", "The IMU on a CAN bus: identifiers of its messages."},
+    Section{"convex_cut", "The extraction of structure."},
+    Section{"worker", "The grid on which results are made and published."},
+    Section{"dds", "What is published, where and how."},
+    Section{"log", "The log on standard error."},
+};
+
+constexpr std::array kKeys{
+    bind_key<&Config::lidar, &Lidar::model>("lidar.model", kChoice<LidarModel>, "",
+                                            "The sensor; auto takes it from its packets."),
+    bind_key<&Config::lidar, &Lidar::data_port>("lidar.data_port", kPort, "",
+                                                "UDP port of the data packets."),
+    bind_key<&Config::lidar, &Lidar::position_port>("lidar.position_port", kPort, "",
+                                                    "UDP port of the position packets."),
+    bind_key<&Config::lidar, &Lidar::min_range_m>("lidar.min_range_m", Number{0.0, 200.0}, "m",
+                                                  "Nearer returns are dropped."),
+    bind_key<&Config::lidar, &Lidar::max_range_m>("lidar.max_range_m", Number{0.0, 300.0}, "m",
+                                                  "Farther returns are dropped."),
+    bind_key<&Config::lidar, &Lidar::cut_azimuth>(
+        "lidar.cut_azimuth_deg", kTurn, "°",
+        "Where one scan ends and the next begins, clockwise from straight ahead."),
+    bind_key<&Config::lidar, &Lidar::cut>(
+        "lidar.cut", kChoice<CutMode>, "",
+        "A scan is a revolution of the sensor, or an exact window of worker.period_ms."),
+    bind_key<&Config::lidar, &Lidar::dual_return>(
+        "lidar.dual_return", kChoice<DualReturn>, "",
+        "Which return of a firing is used when the sensor sends two."),
+    bind_key<&Config::lidar, &Lidar::time_offset_us>(
+        "lidar.time_offset_us", Integer{-kHourInMicroseconds, kHourInMicroseconds}, "µs",
+        "Added to every time of the lidar."),
+    bind_key<&Config::lidar, &Lidar::vertical_offsets>(
+        "lidar.vertical_offsets", Boolean{}, "",
+        "Whether each beam starts at its own height (HDL-32E, VLP-16) and not in the origin."),
+
+    bind_key<&Config::mount, &Mount::orientation>(
+        "mount.orientation", kChoice<MountOrientation>, "",
+        "What levels the points: the IMU, or the fixed angles below."),
+    bind_key<&Config::mount, &Mount::roll>("mount.roll_deg", kTurn, "°",
+                                           "Fixed mount: level from lidar, about x."),
+    bind_key<&Config::mount, &Mount::pitch>("mount.pitch_deg", kTurn, "°",
+                                            "Fixed mount: level from lidar, about y."),
+    bind_key<&Config::mount, &Mount::yaw>("mount.yaw_deg", kTurn, "°",
+                                          "Fixed mount: level from lidar, about z."),
+
+    bind_key<&Config::imu, &Imu::device>("imu.device", kPath, "",
+                                         "Serial device of the live IMU; empty: none."),
+    bind_key<&Config::imu, &Imu::mount_roll>("imu.mount_roll_deg", kTurn, "°",
+                                             "The IMU on the lidar: imu from lidar, about x."),
+    bind_key<&Config::imu, &Imu::mount_pitch>("imu.mount_pitch_deg", kTurn, "°",
+                                              "The IMU on the lidar: imu from lidar, about y."),
+    bind_key<&Config::imu, &Imu::mount_yaw>("imu.mount_yaw_deg", kTurn, "°",
+                                            "The IMU on the lidar: imu from lidar, about z."),
+    bind_key<&Config::imu, &Imu::max_age_ms>(
+        "imu.max_age_ms", Integer{1, 10'000}, "ms",
+        "Points farther in time from an orientation than this are not levelled."),
+    bind_key<&Config::imu, &Imu::baud>(
+        "imu.baud", Integer{0, 4'000'000}, "bit/s",
+        "Rate of the serial line, which gives the time its bytes take; 0: no line (USB)."),
+
+    bind_key<&Config::can, &Can::interface>("can.interface", kInterface, "",
+                                            "CAN interface of the live IMU; empty: none."),
+    bind_key<&Config::can, &Can::bitrate>(
+        "can.bitrate", Integer{5'000, 1'000'000}, "bit/s",
+        "Rate of the bus, which gives the time a frame takes; the interface is not set by it."),
+    bind_key<&Config::can, &Can::sample_time_id>("can.sample_time_id", kCanId, "",
+                                                 "Identifier of SampleTime."),
+    bind_key<&Config::can, &Can::group_counter_id>("can.group_counter_id", kCanId, "",
+                                                   "Identifier of GroupCounter."),
+    bind_key<&Config::can, &Can::status_id>("can.status_id", kCanId, "",
+                                            "Identifier of StatusWord."),
+    bind_key<&Config::can, &Can::quaternion_id>("can.quaternion_id", kCanId, "",
+                                                "Identifier of Quaternion."),
+    bind_key<&Config::can, &Can::euler_id>("can.euler_id", kCanId, "",
+                                           "Identifier of EulerAngles."),
+    bind_key<&Config::can, &Can::rate_of_turn_id>("can.rate_of_turn_id", kCanId, "",
+                                                  "Identifier of RateOfTurn."),
+    bind_key<&Config::can, &Can::acceleration_id>("can.acceleration_id", kCanId, "",
+                                                  "Identifier of Acceleration."),
+    bind_key<&Config::can, &Can::extended_ids>(
+        "can.extended_ids", Boolean{}, "",
+        "Whether the identifiers are extended ones (29 bits) and not standard (11 bits)."),
+
+    bind_key<&Config::convex_cut, &ConvexCut::method>("convex_cut.method", kChoice<Method>, "",
+                                                      "The method; paper is the published one."),
+    bind_key<&Config::convex_cut, &ConvexCut::planes>(
+        "convex_cut.planes", Integer{1, 36'000}, "",
+        "Vertical slicing planes over half a turn: 360 are 0.5° apart."),
+    bind_key<&Config::convex_cut, &ConvexCut::half_width_m>(
+        "convex_cut.half_width_m", Number{0.001, 10.0}, "m",
+        "A point belongs to a slice when it is nearer to its plane than this."),
+    bind_key<&Config::convex_cut, &ConvexCut::hull_distance_m>(
+        "convex_cut.hull_distance_m", Number{0.0, 100.0}, "m",
+        "A point is structure when it is at most this far from its slice's hull."),
+    bind_key<&Config::convex_cut, &ConvexCut::threads>("convex_cut.threads", Integer{1, 64}, "",
+                                                       "Threads that share the work."),
+
+    bind_key<&Config::worker, &Worker::period_ms>("worker.period_ms", Integer{10, 1'000}, "ms",
+                                                  "One result each."),
+    bind_key<&Config::worker, &Worker::latency_ms>(
+        "worker.latency_ms", Integer{1, 1'000}, "ms",
+        "Constant time from a scan's last firing to its publication."),
+
+    bind_key<&Config::dds, &Dds::domain>("dds.domain", Integer{0, kLastDomain}, "",
+                                         "DDS domain: ROS_DOMAIN_ID of the subscribers."),
+    bind_key<&Config::dds, &Dds::profile>(
+        "dds.profile", kPath, "", "Cyclone DDS configuration (XML file); empty: the built-in one."),
+    bind_key<&Config::dds, &Dds::structure_topic>("dds.structure_topic", kTopic, "",
+                                                  "Topic of the structure points."),
+    bind_key<&Config::dds, &Dds::points_topic>("dds.points_topic", kTopic, "",
+                                               "Topic of all points with their labels."),
+    bind_key<&Config::dds, &Dds::imu_topic>("dds.imu_topic", kTopic, "",
+                                            "Topic of the IMU samples."),
+    bind_key<&Config::dds, &Dds::level_frame>("dds.level_frame", kFrame, "",
+                                              "Name of the levelled frame, which points are in."),
+    bind_key<&Config::dds, &Dds::imu_frame>("dds.imu_frame", kFrame, "",
+                                            "Name of the IMU's frame."),
+    bind_key<&Config::dds, &Dds::reliability>(
+        "dds.reliability", kChoice<Reliability>, "",
+        "Of the point topics; best_effort is not received by reliable subscribers."),
+    bind_key<&Config::dds, &Dds::max_blocking_ms>(
+        "dds.max_blocking_ms", Integer{1, 10'000}, "ms",
+        "How long a reliable write may wait for slow subscribers before it is given up."),
+
+    bind_key<&Config::log, &Log::level>("log.level", kChoice<LogLevel>, "",
+                                        "The least severe messages to write."),
+};
+
+}  // namespace
+
+std::span<const Key> keys() noexcept { return kKeys; }
+std::span<const Section> sections() noexcept { return kSections; }
+
+}  // namespace convexcut::config

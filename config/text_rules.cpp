@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/text_rules.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace convexcut::config {
+namespace {
+
+constexpr std::size_t kMaxTopicName = 246;
+constexpr std::size_t kMaxFrameName = 255;
+constexpr std::size_t kMaxPath = 4095;
+constexpr std::size_t kMaxInterface = 15;  // IFNAMSIZ less the terminator
+
+bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
+
+bool is_token_character(char c) noexcept {
+  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+bool is_token(std::string_view token) noexcept {
+  return !token.empty() && !is_digit(token.front()) && token.find("__") == std::string_view::npos &&
+         std::ranges::all_of(token, is_token_character);
+}
+
+// Visible ASCII.
+bool is_graphic(char c) noexcept { return c > ' ' && c <= '~'; }
+
+bool is_control(char c) noexcept { return (c >= '\0' && c < ' ') || c == '\x7F'; }
+
+}  // namespace
+
+bool is_topic_name(std::string_view text) noexcept {
+  if (text.size() > kMaxTopicName) return false;
+  for (;;) {
+    const std::size_t slash = text.find('/');
+    if (!is_token(text.substr(0, slash))) return false;
+    if (slash == std::string_view::npos) return true;
+    text.remove_prefix(slash + 1);
+  }
+}
+
+bool is_frame_name(std::string_view text) noexcept {
+  return !text.empty() && text.size() <= kMaxFrameName && text.front() != '/' &&
+         std::ranges::all_of(text, is_graphic);
+}
+
+bool is_path_or_empty(std::string_view text) noexcept {
+  return text.size() <= kMaxPath && std::ranges::none_of(text, is_control);
+}
+
+bool is_interface_or_empty(std::string_view text) noexcept {
+  return text.size() <= kMaxInterface && std::ranges::all_of(text, is_graphic) &&
+         text.find('/') == std::string_view::npos;
+}
+
+}  // namespace convexcut::config

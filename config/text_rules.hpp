@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What texts in the configuration have to look like.
+#pragma once
+
+#include <string_view>
+
+namespace convexcut::config {
+
+// A ROS 2 topic name relative to the root: tokens of letters, digits and underscores that do not
+// begin with a digit, joined by single slashes; no double underscore; at most 246 characters, with
+// the root's slash rmw's limit of 247
+// (https://design.ros2.org/articles/topic_and_service_names.html).
+[[nodiscard]] bool is_topic_name(std::string_view text) noexcept;
+
+// A tf2 frame: printable, no spaces, no leading slash, at most 255 characters.
+[[nodiscard]] bool is_frame_name(std::string_view text) noexcept;
+
+// A path, or nothing: no control characters, at most 4095 characters.
+[[nodiscard]] bool is_path_or_empty(std::string_view text) noexcept;
+
+// A network interface as Linux names them, or nothing: at most 15 characters, no slash, no spaces.
+[[nodiscard]] bool is_interface_or_empty(std::string_view text) noexcept;
+
+}  // namespace convexcut::config
