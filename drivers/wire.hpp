@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reading wire formats: numbers of a stated byte order at a named offset. The caller has checked
-// the length; debug builds check again.
+// Reading and writing wire formats: numbers of a stated byte order at a named offset. The caller
+// has checked the length; debug builds check again.
 #pragma once
 
 #include <bit>
@@ -11,10 +11,12 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <type_traits>
 
 namespace convexcut::wire {
 
 using Bytes = std::span<const std::byte>;
+using WritableBytes = std::span<std::byte>;
 
 namespace detail {
 template <std::integral T>
@@ -36,6 +38,13 @@ template <std::integral T, std::endian Order>
   if constexpr (Order != std::endian::native) value = byteswap(value);
   return value;
 }
+
+template <std::integral T, std::endian Order>
+void store(WritableBytes bytes, std::size_t offset, T value) noexcept {
+  assert(offset + sizeof(T) <= bytes.size());
+  if constexpr (Order != std::endian::native) value = byteswap(value);
+  std::memcpy(bytes.data() + offset, &value, sizeof(T));
+}
 }  // namespace detail
 
 template <std::integral T>
@@ -46,6 +55,17 @@ template <std::integral T>
 template <std::integral T>
 [[nodiscard]] T load_be(Bytes bytes, std::size_t offset) noexcept {
   return detail::load<T, std::endian::big>(bytes, offset);
+}
+
+// The type is named, not deduced: it is the width on the wire.
+template <std::integral T>
+void store_le(WritableBytes bytes, std::size_t offset, std::type_identity_t<T> value) noexcept {
+  detail::store<T, std::endian::little>(bytes, offset, value);
+}
+
+template <std::integral T>
+void store_be(WritableBytes bytes, std::size_t offset, std::type_identity_t<T> value) noexcept {
+  detail::store<T, std::endian::big>(bytes, offset, value);
 }
 
 [[nodiscard]] inline std::uint8_t load_u8(Bytes bytes, std::size_t offset) noexcept {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/demo_room/mtdata2_writer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+
+#include "drivers/wire.hpp"
+#include "drivers/xsens/xbus.hpp"
+
+namespace convexcut::sim {
+
+template <class Unsigned>
+void MtData2Writer::append(Unsigned value) {
+  const std::size_t at = items_.size();
+  items_.resize(at + sizeof(value));
+  wire::store_be<Unsigned>(items_, at, value);
+}
+
+void MtData2Writer::begin_item(xsens::DataType type, std::size_t size) {
+  append(static_cast<std::uint16_t>(type));
+  append(static_cast<std::uint8_t>(size));
+}
+
+void MtData2Writer::add(xsens::DataType type, std::uint16_t value) {
+  begin_item(type, sizeof(value));
+  append(value);
+}
+
+void MtData2Writer::add(xsens::DataType type, std::uint32_t value) {
+  begin_item(type, sizeof(value));
+  append(value);
+}
+
+void MtData2Writer::add(xsens::DataType type, std::span<const float> values) {
+  begin_item(type, values.size_bytes());
+  for (const float value : values) append(std::bit_cast<std::uint32_t>(value));
+}
+
+std::vector<std::byte> MtData2Writer::frame() const {
+  if (items_.size() >= xsens::kExtendedLength) {
+    throw std::length_error("more than 254 bytes of items in an MTData2 message");
+  }
+  std::vector<std::byte> frame(xsens::kHeaderSize + items_.size() + xsens::kChecksumSize);
+  frame[xsens::kPreambleOffset] = std::byte{xsens::kPreamble};
+  frame[xsens::kBusIdOffset] = std::byte{xsens::kBusId};
+  frame[xsens::kMessageIdOffset] = static_cast<std::byte>(xsens::MessageId::mtdata2);
+  frame[xsens::kLengthOffset] = static_cast<std::byte>(items_.size());
+  std::ranges::copy(items_, frame.begin() + xsens::kHeaderSize);
+  // All bytes after the preamble, with the checksum, add up to 0 modulo 256.
+  unsigned sum = 0;
+  for (const std::byte b : std::span(frame).subspan(1)) sum += std::to_integer<unsigned>(b);
+  frame.back() = static_cast<std::byte>(0U - sum);
+  return frame;
+}
+
+}  // namespace convexcut::sim
