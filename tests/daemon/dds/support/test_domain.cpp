@@ -34,9 +34,9 @@ std::string loopback_profile() {
 // A file that goes with the process.
 class ProfileFile {
  public:
-  ProfileFile(std::string_view name, std::string_view text)
+  explicit ProfileFile(std::string_view text)
       : path_(std::filesystem::temp_directory_path() /
-              ("convexcut-" + std::to_string(::getpid()) + "-" + std::string(name) + ".xml")) {
+              ("convexcut-loopback-" + std::to_string(::getpid()) + ".xml")) {
     std::ofstream(path_) << text;
   }
   ~ProfileFile() { std::filesystem::remove(path_); }
@@ -48,25 +48,13 @@ class ProfileFile {
   std::filesystem::path path_;
 };
 
-// Spread over the domains whose ports lie below the ephemeral range (0 … 100), in pairs.
-std::uint32_t first_domain() { return 2 * (static_cast<std::uint32_t>(::getpid()) % 50); }
-
 }  // namespace
 
 config::Dds test_settings() {
-  static const ProfileFile file("loopback", loopback_profile());
+  static const ProfileFile file(loopback_profile());
   config::Dds settings;
-  settings.domain = first_domain();
-  settings.profile = file.path();
-  return settings;
-}
-
-config::Dds test_settings_with_whc_high(std::string_view size) {
-  std::string profile = loopback_profile();
-  replace(profile, "<WhcHigh>8MiB</WhcHigh>", "<WhcHigh>" + std::string(size) + "</WhcHigh>");
-  static const ProfileFile file("whc", profile);
-  config::Dds settings;
-  settings.domain = first_domain() + 1;
+  // Of the domains whose ports lie below the ephemeral range.
+  settings.domain = static_cast<std::uint32_t>(::getpid()) % 101;
   settings.profile = file.path();
   return settings;
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "config/config.hpp"
 
 namespace convexcut::daemon::testing {
@@ -12,8 +9,5 @@ namespace convexcut::daemon::testing {
 // (nothing leaves the host, no network is needed) and tagged with this process, so that programs
 // that run at the same time never meet.
 [[nodiscard]] config::Dds test_settings();
-
-// The same with Internal/Watermarks/WhcHigh changed, on a domain of its own.
-[[nodiscard]] config::Dds test_settings_with_whc_high(std::string_view size);
 
 }  // namespace convexcut::daemon::testing
