@@ -171,7 +171,7 @@ void Daemon::complete(ScanStatus& status) const {
 
 std::uint64_t Daemon::lost_imu_samples() const {
   if (recordings_.imu() != nullptr) return recordings_.imu()->counters().lost_messages.value();
-  if (recordings_.can() != nullptr) return recordings_.can()->counters().lost_samples.value();
+  if (recordings_.can() != nullptr) return recordings_.can()->counters().lost_groups.value();
   return 0;
 }
 

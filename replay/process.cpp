@@ -71,7 +71,7 @@ class Run {
         imu_input_(pipeline_),
         recordings_(options.recordings, options.config, lidar_input_, imu_input_),
         writer_(options.out, options.format),
-        output_(writer_) {}
+        output_(writer_, daemon::Pipeline::kMaxReturnsPerScan) {}
 
   void all() {
     const auto started = std::chrono::steady_clock::now();

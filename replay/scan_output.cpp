@@ -3,9 +3,14 @@
 
 #include <utility>
 
+#include "core/scan/levelling.hpp"
+
 namespace convexcut::replay {
 
-ScanOutput::ScanOutput(ScanWriter& writer) : writer_(writer), thread_([this] { run(); }) {}
+ScanOutput::ScanOutput(ScanWriter& writer, std::size_t max_points) : writer_(writer) {
+  for (Slot& slot : slots_) reserve(slot.scan, max_points);
+  thread_ = std::thread([this] { run(); });
+}
 
 ScanOutput::~ScanOutput() { join(); }
 

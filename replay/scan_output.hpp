@@ -18,7 +18,8 @@ namespace convexcut::replay {
 // comes out of the next call.
 class ScanOutput {
  public:
-  explicit ScanOutput(ScanWriter& writer);
+  // max_points: of a scan.
+  ScanOutput(ScanWriter& writer, std::size_t max_points);
   ScanOutput(const ScanOutput&) = delete;
   ScanOutput& operator=(const ScanOutput&) = delete;
   ~ScanOutput();

@@ -58,7 +58,9 @@ int run_program(CLI::App& root, int argc, char** argv, const std::function<int()
     return fail(root.get_name(),
                 std::string(error.what()) + " (see " + full_name(root) + " --help)", kUsage);
   } catch (const config::ConfigError& error) {
-    return fail(full_name(root), error.what(), kUsage);
+    // One line an error, each of which begins with its place.
+    std::fprintf(stderr, "%s\n", error.what());
+    return kUsage;
   } catch (const UsageError& error) {
     return fail(full_name(root), error.what(), kUsage);
   } catch (const std::exception& error) {

@@ -34,4 +34,25 @@ velodyne::LidarDriverOptions lidar_driver_options(const config::Lidar& lidar) {
   return options;
 }
 
+xsens::ImuDriverOptions imu_driver_options(const config::Imu& imu) {
+  xsens::ImuDriverOptions options;
+  options.baud = imu.baud;
+  return options;
+}
+
+can::CanImuOptions can_driver_options(const config::Can& settings) {
+  using Message = can::XsensMessage;
+  can::CanImuOptions options;
+  options.bitrate = settings.bitrate;
+  options.ids[Message::sample_time] = settings.sample_time_id;
+  options.ids[Message::group_counter] = settings.group_counter_id;
+  options.ids[Message::status_word] = settings.status_id;
+  options.ids[Message::quaternion] = settings.quaternion_id;
+  options.ids[Message::euler_angles] = settings.euler_id;
+  options.ids[Message::rate_of_turn] = settings.rate_of_turn_id;
+  options.ids[Message::acceleration] = settings.acceleration_id;
+  options.ids.extended = settings.extended_ids;
+  return options;
+}
+
 }  // namespace convexcut::daemon

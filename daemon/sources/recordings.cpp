@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "config/loader.hpp"
+
 namespace convexcut::daemon {
 
 Recordings::Recordings(const RecordingPaths& paths, const config::Config& config,

@@ -24,15 +24,20 @@ class CanRecording final : public RecordedStream {
  public:
   // Tells the two kinds by their first bytes. Throws capture::CaptureError or std::runtime_error:
   // missing, empty, a capture of something else.
-  CanRecording(const std::filesystem::path& file, const can::CanImuDriverOptions& options,
+  CanRecording(const std::filesystem::path& file, const can::CanImuOptions& options,
                Sink<ImuSample>& sink);
 
   [[nodiscard]] std::optional<HostTime> next_stamp() override;
   void deliver() override;
   void finish() override { driver_.flush(); }
   [[nodiscard]] std::string problem() const override;
-  [[nodiscard]] std::uint64_t bytes_read() const override;
-  [[nodiscard]] std::uint64_t bytes_total() const override { return bytes_total_; }
+  // A candump log tells nothing of its progress: it is 0 of 0 bytes.
+  [[nodiscard]] std::uint64_t bytes_read() const override {
+    return capture_ ? capture_->bytes_read() : 0;
+  }
+  [[nodiscard]] std::uint64_t bytes_total() const override {
+    return capture_ ? capture_->file_size() : 0;
+  }
 
   [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
   // By identifier, without flags.
@@ -47,7 +52,6 @@ class CanRecording final : public RecordedStream {
  private:
   [[nodiscard]] bool read_frame();
 
-  std::uint64_t bytes_total_;
   std::unique_ptr<capture::CaptureReader> capture_;  // one of the two
   std::unique_ptr<can::CandumpReader> log_;
   SampleTap tap_;

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace convexcut::test {
+
+struct ProgramResult {
+  int status = -1;  // exit status; 128 + signal when a signal ended it
+  std::string out;
+  std::string err;
+
+  [[nodiscard]] std::size_t error_lines() const;
+};
+
+struct ProgramLimits {
+  long file_size_bytes =
+      -1;  // RLIMIT_FSIZE, with SIGXFSZ ignored: writing beyond fails like a full disk
+};
+
+// Runs a program of the build (build/PRESET/bin/NAME) to its end.
+[[nodiscard]] ProgramResult run_program(const std::string& name,
+                                        const std::vector<std::string>& arguments,
+                                        const ProgramLimits& limits = {});
+
+}  // namespace convexcut::test
