@@ -31,8 +31,8 @@ double elevation_deg(const ReturnBatch& batch, std::size_t i) {
 
 // Clockwise from x, as the sensor counts.
 double azimuth_deg(const ReturnBatch& batch, std::size_t i) {
-  const double x = batch.x_lidar[i];
-  const double y = batch.y_lidar[i];
+  const auto x = static_cast<double>(batch.x_lidar[i]);
+  const auto y = static_cast<double>(batch.y_lidar[i]);
   const double counterclockwise = std::atan2(y, x) * 180.0 / M_PI;
   return counterclockwise > 0 ? 360.0 - counterclockwise : -counterclockwise;
 }

@@ -108,8 +108,8 @@ TEST(DualReturn, PacketHoldsTwelveFiringsOfTheVlp16) {
 
 TEST(DualReturn, AzimuthStepsAreBetweenPairs) {
   const ReturnBatch batch = decode(dual_packet().azimuths(9000, 16, 2).echo(0, 31, 10000));
-  const double x = batch.x_lidar[0];
-  const double y = batch.y_lidar[0];
+  const auto x = static_cast<double>(batch.x_lidar[0]);
+  const auto y = static_cast<double>(batch.y_lidar[0]);
   const double clockwise_past_right = std::atan2(-x, -y) * 180.0 / M_PI;
   EXPECT_NEAR(clockwise_past_right, 0.16 * 31 / 40, 1e-5);
 }

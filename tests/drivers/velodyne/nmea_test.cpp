@@ -15,6 +15,7 @@ namespace convexcut::velodyne {
 namespace {
 
 using namespace std::chrono;
+using namespace std::string_view_literals;
 
 // "$" body "*" checksum CR LF.
 std::string sentence(std::string_view body) {
@@ -115,13 +116,13 @@ TEST(Nmea, OtherSentencesAreUnsupported) {
 
 TEST(Nmea, EmptyFieldIsAbsent) {
   EXPECT_EQ(status_of(""), NmeaStatus::absent);
-  EXPECT_EQ(status_of(std::string_view("\0\0\0$GPRMC", 9)), NmeaStatus::absent);
+  EXPECT_EQ(status_of("\0\0\0$GPRMC"sv), NmeaStatus::absent);
   EXPECT_EQ(status_of("\r\n"), NmeaStatus::absent);
 }
 
 TEST(Nmea, NulEndsTheSentenceAndWhatFollowsIsIgnored) {
   std::string text(kRecorded.substr(0, kRecorded.size() - 2));
-  text += std::string("\0\0garbage $ * , \xFF\xFE", 20);
+  text += "\0\0garbage $ * , \xFF\xFE"sv;
   EXPECT_EQ(status_of(text), NmeaStatus::ok);
 }
 

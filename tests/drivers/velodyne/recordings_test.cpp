@@ -84,10 +84,10 @@ TEST(CourtyardRecording, PointsAreAtTheirRangeAndWithinTheFieldOfView) {
   feed(driver, test::read_capture(file));
   for (const ReturnBatch& batch : sink.batches) {
     for (std::size_t i = 0; i < batch.return_count; ++i) {
-      const double x = batch.x_lidar[i];
-      const double y = batch.y_lidar[i];
-      const double z = batch.z_lidar[i];
-      const double range = batch.range_m[i];
+      const auto x = static_cast<double>(batch.x_lidar[i]);
+      const auto y = static_cast<double>(batch.y_lidar[i]);
+      const auto z = static_cast<double>(batch.z_lidar[i]);
+      const auto range = static_cast<double>(batch.range_m[i]);
       ASSERT_NEAR(std::sqrt(x * x + y * y + z * z), range, 1e-5);
       ASSERT_GE(z / range, std::sin(-30.68 * M_PI / 180));
       ASSERT_LE(z / range, std::sin(10.68 * M_PI / 180));
