@@ -26,3 +26,8 @@ else()
   endif()
   add_link_options(-Wl,-z,relro,-z,now)
 endif()
+
+if(CONVEXCUT_FUZZ)
+  # The fuzzer steers by the branches that are taken, so all code has to report them.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()

@@ -65,9 +65,10 @@ void take_entry(const Entry& entry, std::string_view file, Draft& draft) {
     draft.assign(*key, found_in(*entry.node), place);
   } else if (std::ranges::find(sections(), entry.name, &Section::name) != sections().end()) {
     draft.report(place, "expected a table, [" + entry.name + "]");
+  } else if (entry.node->is_table()) {
+    draft.report(place, "unknown table" + suggest_section(entry.name));
   } else {
-    draft.report(
-        place, (entry.node->is_table() ? "unknown table" : "unknown key") + suggestion(entry.name));
+    draft.report(place, "unknown key" + suggest_key(entry.name));
   }
 }
 
@@ -116,7 +117,7 @@ void take_override(const std::string& override_text, Draft& draft) {
   if (const Key* key = find_key(name)) {
     draft.assign(*key, value_of_override(*key, value), place);
   } else {
-    draft.report(place, "unknown key" + suggestion(name));
+    draft.report(place, "unknown key" + suggest_key(name));
   }
 }
 

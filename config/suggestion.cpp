@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "config/schema.hpp"
+#include "config/value_text.hpp"
 
 namespace convexcut::config {
 namespace {
@@ -28,42 +30,54 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+// As edit_distance(), but nothing when a third of the word is wrong.
+std::optional<std::size_t> slip(std::string_view written, std::string_view meant) {
+  if (written.size() > kLongestName) return std::nullopt;
+  const std::size_t distance = edit_distance(written, meant);
+  const std::size_t most = std::max<std::size_t>(1, written.size() / 3);
+  return distance <= most ? std::optional(distance) : std::nullopt;
+}
+
 class Nearest {
  public:
-  explicit Nearest(std::string_view unknown) : unknown_(unknown), best_(unknown.size() / 3 + 1) {}
-
-  void offer(std::string_view candidate, std::size_t distance) {
-    if (distance >= best_) return;
-    best_ = distance;
+  void offer(std::string_view candidate, std::optional<std::size_t> distance) {
+    if (!distance || (distance_ && *distance >= *distance_)) return;
+    distance_ = distance;
     name_ = candidate;
   }
-  void offer(std::string_view candidate) { offer(candidate, edit_distance(unknown_, candidate)); }
-  [[nodiscard]] std::string_view name() const { return name_; }
+  [[nodiscard]] std::string question() const {
+    return distance_ ? concat("; did you mean ", name_, "?") : std::string();
+  }
 
  private:
-  std::string_view unknown_;
-  std::size_t best_;
+  std::optional<std::size_t> distance_;
   std::string_view name_;
 };
 
 }  // namespace
 
-std::string suggestion(std::string_view unknown) {
-  if (unknown.size() > kLongestName) return {};
-  Nearest nearest(unknown);
+std::string suggest_key(std::string_view unknown) {
   const std::size_t dot = unknown.find('.');
-  for (const Section& section : sections()) {
-    if (dot == std::string_view::npos) nearest.offer(section.name);
-  }
+  const bool has_section = dot != std::string_view::npos;
+  const std::string_view section = has_section ? unknown.substr(0, dot) : "";
+  const std::string_view leaf = has_section ? unknown.substr(dot + 1) : unknown;
+  Nearest nearest;
   for (const Key& key : keys()) {
-    if (dot != std::string_view::npos) nearest.offer(key.name);
+    const auto in_section = slip(section, key.section());
+    const auto in_leaf = slip(leaf, key.leaf());
+    if (in_section && in_leaf) nearest.offer(key.name, *in_section + *in_leaf);
     // The right key in the wrong section, or without one.
-    const bool same_leaf =
-        unknown.substr(dot == std::string_view::npos ? 0 : dot + 1) == key.leaf();
-    if (same_leaf) nearest.offer(key.name, 1);
+    if (leaf == key.leaf()) nearest.offer(key.name, 2);
   }
-  if (nearest.name().empty()) return {};
-  return "; did you mean " + std::string(nearest.name()) + "?";
+  return nearest.question();
+}
+
+std::string suggest_section(std::string_view unknown) {
+  Nearest nearest;
+  for (const Section& section : sections()) {
+    nearest.offer(section.name, slip(unknown, section.name));
+  }
+  return nearest.question();
 }
 
 }  // namespace convexcut::config

@@ -6,8 +6,9 @@
 
 namespace convexcut::config {
 
-// "; did you mean lidar.model?" for a name that is no key, or no section when it has no dot. Empty
-// when nothing is near.
-[[nodiscard]] std::string suggestion(std::string_view unknown);
+// "; did you mean lidar.model?" for a name that is no key, or no section. Empty when nothing is
+// near.
+[[nodiscard]] std::string suggest_key(std::string_view unknown);
+[[nodiscard]] std::string suggest_section(std::string_view unknown);
 
 }  // namespace convexcut::config

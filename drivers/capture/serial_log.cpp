@@ -11,7 +11,9 @@ namespace convexcut::capture {
 void SerialLog::Close::operator()(std::FILE* stream) const noexcept { std::fclose(stream); }
 
 SerialLog::SerialLog(const std::filesystem::path& file)
-    : name_(file.string()), stream_(open_input(file, "a recording of a serial line")) {
+    : name_(file.string()),
+      stream_(open_input(file, "a recording of a serial line")),
+      file_size_(size_of(stream_.get())) {
   const int first = std::fgetc(stream_.get());
   if (first == EOF) {
     if (std::ferror(stream_.get()) != 0) {

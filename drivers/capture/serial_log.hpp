@@ -31,6 +31,8 @@ class SerialLog {
   [[nodiscard]] std::string problem() const;
 
   [[nodiscard]] std::uint64_t bytes_read() const noexcept { return bytes_read_; }
+  // 0 when the input is not a regular file.
+  [[nodiscard]] std::uint64_t file_size() const noexcept { return file_size_; }
 
  private:
   struct Close {
@@ -39,6 +41,7 @@ class SerialLog {
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> stream_;
+  std::uint64_t file_size_ = 0;
   std::uint64_t bytes_read_ = 0;
   int error_number_ = 0;
   ReadStatus status_ = ReadStatus::record;

@@ -42,6 +42,7 @@ TEST(SerialLog, ChunksTogetherAreTheFile) {
   }
   EXPECT_EQ(together, bytes);
   EXPECT_EQ(log.bytes_read(), bytes.size());
+  EXPECT_EQ(log.file_size(), bytes.size());
   EXPECT_EQ(log.next(chunk), ReadStatus::end);
   EXPECT_TRUE(chunk.empty());
   EXPECT_EQ(log.problem(), "");

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Names and paths. Does not prove that a path exists: that is found out where it is opened.
+#include "config/text_rules.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace convexcut::config {
+namespace {
+
+TEST(TextRules, TopicNames) {
+  for (const char* good : {"imu", "imu/data", "convexcut/structure", "_a/b_1/C"}) {
+    EXPECT_TRUE(is_topic_name(good)) << good;
+  }
+  for (const char* bad : {"", "/imu", "imu/", "imu//data", "1imu", "imu/2", "imu data", "imu-data",
+                          "~/imu", "a__b", "imu.data", "b\xC3\xBC"}) {
+    EXPECT_FALSE(is_topic_name(bad)) << bad;
+  }
+  EXPECT_TRUE(is_topic_name(std::string(246, 'a')));
+  EXPECT_FALSE(is_topic_name(std::string(247, 'a')));
+}
+
+TEST(TextRules, FrameNames) {
+  for (const char* good : {"level", "robot/base-link", "imu.1"}) {
+    EXPECT_TRUE(is_frame_name(good)) << good;
+  }
+  for (const char* bad : {"", "/level", "le vel", "le\nvel", "\xC3\xBC"}) {
+    EXPECT_FALSE(is_frame_name(bad)) << bad;
+  }
+  EXPECT_FALSE(is_frame_name(std::string(256, 'a')));
+}
+
+TEST(TextRules, Paths) {
+  for (const char* good : {"", "/etc/x.xml", "a b", "\xC3\xBC"}) {
+    EXPECT_TRUE(is_path_or_empty(good)) << good;
+  }
+  for (const char* bad : {"a\nb", "\x7F"}) EXPECT_FALSE(is_path_or_empty(bad));
+  EXPECT_FALSE(is_path_or_empty(std::string_view("a\0b", 3)));
+  EXPECT_FALSE(is_path_or_empty(std::string(4096, 'a')));
+}
+
+TEST(TextRules, Interfaces) {
+  for (const char* good : {"", "can0", "vcan0.1"}) EXPECT_TRUE(is_interface_or_empty(good)) << good;
+  for (const char* bad : {"can 0", "a/b", "sixteen_letters_"}) {
+    EXPECT_FALSE(is_interface_or_empty(bad)) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace convexcut::config
