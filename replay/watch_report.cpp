@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <charconv>
+#include <string_view>
+
+#include <system_error>
 
 namespace convexcut::replay {
 namespace {
@@ -20,11 +23,29 @@ double milliseconds(Duration duration) {
 // A daemon that was restarted counts from zero again.
 std::uint64_t increase(std::uint64_t from, std::uint64_t to) { return to >= from ? to - from : to; }
 
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  std::array<char, 512> text;
-  const int length = std::snprintf(text.data(), text.size(), format, values...);
-  return {text.data(), static_cast<std::size_t>(std::max(length, 0))};
+std::string fixed(double value, int decimals) {
+  std::array<char, 64> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::fixed, decimals);
+  return {text.data(), end.ec == std::errc{} ? end.ptr : text.data()};
+}
+
+std::string right_aligned(const std::string& text, std::size_t width) {
+  return std::string(width - std::min(width, text.size()), ' ') + text;
+}
+
+// The columns of a line, as in watch_header().
+constexpr std::array<std::size_t, 11> kWidths{9, 7, 7, 6, 7, 6, 7, 7, 6, 7, 9};
+constexpr std::array<std::size_t, 3> kBarsBefore{3, 6, 9};
+
+std::string table_row(const std::array<std::string, kWidths.size()>& cells) {
+  std::string row;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (std::count(kBarsBefore.begin(), kBarsBefore.end(), i) != 0) row += " |";
+    if (i > 0) row += ' ';
+    row += right_aligned(cells[i], kWidths[i]);
+  }
+  return row + '\n';
 }
 
 }  // namespace
@@ -75,43 +96,50 @@ WatchInterval WatchCounter::finish(Duration elapsed) {
 }
 
 std::string watch_header() {
-  return "structure  points     imu | points  struct. cover. | latency     max   late |    lost    "
-         "lost\n"
-         "       Hz      Hz      Hz | a scan       %      % |  p50 ms      ms  scans | packets "
-         "IMU samp.\n";
+  return table_row({"structure", "points", "imu", "points", "struct.", "cover.", "latency", "max",
+                    "late", "lost", "lost IMU"}) +
+         table_row(
+             {"Hz", "Hz", "Hz", "a scan", "%", "%", "p50 ms", "ms", "scans", "packets", "samples"});
 }
 
 std::string watch_line(const WatchInterval& interval) {
-  const std::string rates =
-      formatted("%9.1f %7.1f %7.1f |", interval.structure_hz, interval.points_hz, interval.imu_hz);
-  if (!interval.status) {
-    return rates + formatted(" %6s %7s %6s | %7s %7s %6s | %7s %9s\n", "-", "-", "-", "-", "-", "-",
-                             "-", "-");
+  std::array<std::string, kWidths.size()> cells;
+  cells.fill("-");
+  cells[0] = fixed(interval.structure_hz, 1);
+  cells[1] = fixed(interval.points_hz, 1);
+  cells[2] = fixed(interval.imu_hz, 1);
+  if (interval.status) {
+    const WatchInterval::Status& status = *interval.status;
+    cells[3] = fixed(status.points_per_scan, 0);
+    cells[4] = fixed(100.0 * status.structure_share, 1);
+    cells[5] = fixed(100.0 * status.coverage, 1);
+    cells[6] = fixed(milliseconds(status.latency_p50), 2);
+    cells[7] = fixed(milliseconds(status.latency_max), 2);
+    cells[8] = std::to_string(status.late_scans);
+    cells[9] = std::to_string(status.lost_packets);
+    cells[10] = std::to_string(status.lost_imu_samples);
   }
-  const WatchInterval::Status& status = *interval.status;
-  return rates + formatted(" %6.0f %7.1f %6.1f | %7.2f %7.2f %6llu | %7llu %9llu\n",
-                           status.points_per_scan, 100.0 * status.structure_share,
-                           100.0 * status.coverage, milliseconds(status.latency_p50),
-                           milliseconds(status.latency_max),
-                           static_cast<unsigned long long>(status.late_scans),
-                           static_cast<unsigned long long>(status.lost_packets),
-                           static_cast<unsigned long long>(status.lost_imu_samples));
+  return table_row(cells);
 }
 
 std::string watch_json(const WatchInterval& interval, std::uint32_t publishers) {
-  std::string json =
-      formatted(R"({"publishers":%u,"structure_hz":%.2f,"points_hz":%.2f,"imu_hz":%.2f)",
-                publishers, interval.structure_hz, interval.points_hz, interval.imu_hz);
+  std::string json = "{\"publishers\":" + std::to_string(publishers);
+  const auto add = [&json](std::string_view key, const std::string& value) {
+    json.append(",\"").append(key).append("\":").append(value);
+  };
+  add("structure_hz", fixed(interval.structure_hz, 2));
+  add("points_hz", fixed(interval.points_hz, 2));
+  add("imu_hz", fixed(interval.imu_hz, 2));
   if (interval.status) {
     const WatchInterval::Status& status = *interval.status;
-    json += formatted(
-        R"(,"points_per_scan":%.1f,"structure_share":%.4f,"coverage":%.4f,"latency_p50_ms":%.3f,)"
-        R"("latency_max_ms":%.3f,"late_scans":%llu,"lost_packets":%llu,"lost_imu_samples":%llu)",
-        status.points_per_scan, status.structure_share, status.coverage,
-        milliseconds(status.latency_p50), milliseconds(status.latency_max),
-        static_cast<unsigned long long>(status.late_scans),
-        static_cast<unsigned long long>(status.lost_packets),
-        static_cast<unsigned long long>(status.lost_imu_samples));
+    add("points_per_scan", fixed(status.points_per_scan, 1));
+    add("structure_share", fixed(status.structure_share, 4));
+    add("coverage", fixed(status.coverage, 4));
+    add("latency_p50_ms", fixed(milliseconds(status.latency_p50), 3));
+    add("latency_max_ms", fixed(milliseconds(status.latency_max), 3));
+    add("late_scans", std::to_string(status.late_scans));
+    add("lost_packets", std::to_string(status.lost_packets));
+    add("lost_imu_samples", std::to_string(status.lost_imu_samples));
   }
   return json + "}\n";
 }
