@@ -6,25 +6,42 @@
 #include "core/convex_cut/orientation.hpp"
 
 namespace convexcut {
+namespace {
+
+// By u, then z. Not SlicePoint's defaulted comparison, which has to consider NaN as well.
+constexpr auto kBefore = [](const SlicePoint& a, const SlicePoint& b) noexcept {
+  return a.u < b.u || (a.u == b.u && a.z < b.z);
+};
+constexpr auto kSamePlace = [](const SlicePoint& a, const SlicePoint& b) noexcept {
+  return a.u == b.u && a.z == b.z;
+};
+
+// Appends a point to the half hull that begins at `start`; turns that are not to the left go.
+void extend(std::span<SlicePoint> vertices, std::size_t start, std::size_t& size,
+            SlicePoint next) noexcept {
+  while (size >= start + 2 && orientation(vertices[size - 2], vertices[size - 1], next) <= 0) {
+    --size;
+  }
+  vertices[size++] = next;
+}
+
+}  // namespace
 
 std::span<const SlicePoint> convex_hull(std::span<SlicePoint> points,
                                         std::span<SlicePoint> vertices) noexcept {
-  std::sort(points.begin(), points.end());
-  const auto unique_end = std::unique(points.begin(), points.end());
+  std::sort(points.begin(), points.end(), kBefore);
+  const auto unique_end = std::unique(points.begin(), points.end(), kSamePlace);
   const auto n = static_cast<std::size_t>(unique_end - points.begin());
+  if (n < 3) {
+    std::copy_n(points.begin(), n, vertices.begin());
+    return vertices.first(n);
+  }
+
   std::size_t size = 0;
-  // Adds a point to the chain whose first vertex is at `start`: turns that are not to the left go.
-  const auto add = [&](const SlicePoint& point, std::size_t start) {
-    while (size >= start + 2 && orientation(vertices[size - 2], vertices[size - 1], point) <= 0) {
-      --size;
-    }
-    vertices[size++] = point;
-  };
-  for (std::size_t i = 0; i < n; ++i) add(points[i], 0);  // below, from left to right
-  if (n < 3) return vertices.first(size);
+  for (std::size_t i = 0; i < n; ++i) extend(vertices, 0, size, points[i]);  // below, to the right
   const std::size_t rightmost = size - 1;
-  for (std::size_t i = n - 1; i-- > 0;) add(points[i], rightmost);  // above, back to the left
-  return vertices.first(size - 1);                                  // the leftmost came twice
+  for (std::size_t i = n - 1; i-- > 0;) extend(vertices, rightmost, size, points[i]);  // and back
+  return vertices.first(size - 1);  // the leftmost came twice
 }
 
 }  // namespace convexcut

@@ -4,17 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace convexcut {
 namespace {
-
-// Shewchuk's ccwerrboundA with ε = 2⁻⁵³: the rounded determinant has the right sign when it is at
-// least this part of the sum of its two products' magnitudes.
-constexpr double kHalfUlp = std::numeric_limits<double>::epsilon() / 2;
-constexpr double kFilter = (3.0 + 16.0 * kHalfUlp) * kHalfUlp;
-
-[[nodiscard]] int sign_of(double value) noexcept { return (value > 0.0) - (value < 0.0); }
 
 // An exact sum: components that do not overlap, in increasing magnitude (Grow-Expansion).
 class Expansion {
@@ -26,7 +18,7 @@ class Expansion {
   }
   [[nodiscard]] int sign() const noexcept {
     for (std::size_t i = size_; i > 0; --i) {
-      if (components_[i - 1] != 0.0) return sign_of(components_[i - 1]);
+      if (components_[i - 1] != 0.0) return components_[i - 1] > 0.0 ? 1 : -1;
     }
     return 0;
   }
@@ -50,8 +42,10 @@ class Expansion {
   std::size_t size_ = 0;
 };
 
-[[nodiscard]] int exact_orientation(const SlicePoint& a, const SlicePoint& b,
-                                    const SlicePoint& c) noexcept {
+}  // namespace
+
+int detail::exact_orientation(const SlicePoint& a, const SlicePoint& b,
+                              const SlicePoint& c) noexcept {
   Expansion determinant;
   determinant.add_product(a.u, b.z);
   determinant.add_product(-a.u, c.z);
@@ -60,18 +54,6 @@ class Expansion {
   determinant.add_product(a.z, c.u);
   determinant.add_product(c.z, b.u);
   return determinant.sign();
-}
-
-}  // namespace
-
-int orientation(const SlicePoint& a, const SlicePoint& b, const SlicePoint& c) noexcept {
-  const double left = (a.u - c.u) * (b.z - c.z);
-  const double right = (a.z - c.z) * (b.u - c.u);
-  const double determinant = left - right;
-  if (std::abs(determinant) >= kFilter * (std::abs(left) + std::abs(right))) {
-    return sign_of(determinant);
-  }
-  return exact_orientation(a, b, c);
 }
 
 }  // namespace convexcut

@@ -9,10 +9,13 @@
 namespace convexcut {
 namespace {
 
-// The four axes on which extremes are looked for; each gives a least and a greatest point.
-constexpr std::size_t kAxes = 4;
+// The axes on which extremes are looked for; each gives a least and a greatest point. Those that
+// lean a little from u and z find the outermost noise at both ends of walls, floor and ceiling: the
+// polygon then hugs them, and few points are left outside of it.
+constexpr std::size_t kAxes = kExtremes / 2;
 [[nodiscard]] std::array<float, kAxes> on_axes(float u, float z) noexcept {
-  return {u, u + z, z, z - u};
+  constexpr float kLean = 1.0F / 16.0F;
+  return {u, u + kLean * z, u + z, z + kLean * u, z, z - kLean * u, z - u, kLean * z - u};
 }
 
 // An index takes the place of a value's lowest mantissa bits, so that one maximum finds both.

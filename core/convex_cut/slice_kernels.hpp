@@ -18,7 +18,7 @@ namespace convexcut {
 
 // The kernels work on blocks of this many points and may read and write the rest of the last block:
 // the columns of a slice have room for it.
-inline constexpr std::size_t kKernelBlock = 16;
+inline constexpr std::size_t kKernelBlock = 32;
 
 // Points of one slice; the columns have the same capacity.
 struct SliceColumns {
@@ -32,9 +32,9 @@ struct SliceColumns {
                                  const SlicingPlane& plane, double half_width_m,
                                  const SliceColumns& members, std::size_t count) noexcept;
 
-// Indices of members that are (nearly, to 2⁻¹² of their value) outermost in eight directions, in
-// counter-clockwise order. Some may be equal. Needs 0 < count.
-inline constexpr std::size_t kExtremes = 8;
+// Indices of members that are (nearly, to 2⁻¹² of their value) outermost in sixteen directions.
+// Some may be equal. Needs 0 < count.
+inline constexpr std::size_t kExtremes = 16;
 [[nodiscard]] std::array<std::size_t, kExtremes> extremes(const SliceColumns& members,
                                                           std::size_t count) noexcept;
 

@@ -6,13 +6,11 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/convex_cut/convex_hull.hpp"
-
 namespace convexcut {
 namespace {
 
 // Bound of the error of a depth estimate, as a part of the cloud's extent X. With |u| ≤ √2·X and
-// unit normals, its roundings sum up to 13.2·2⁻²⁴·X = 0.8e-6·X (design note, section "Tolerance").
+// unit normals, its roundings sum up to less than 0.9e-6·X (design note, section "Tolerance").
 constexpr float kDepthErrorPerExtent = 2e-6F;
 
 // A slice of fewer members goes to the hull as it is.
@@ -53,6 +51,7 @@ SliceWorker::SliceWorker(const ConvexCutParameters& parameters, std::size_t max_
       z_(max_points + kKernelBlock),
       depth_(max_points + kKernelBlock),
       position_(max_points + kKernelBlock),
+      candidate_position_(max_points + 1),
       candidates_(std::max(max_points, kExtremes)),
       vertices_(std::max(max_points, kExtremes) + 1),
       normal_u_(std::max(max_points, kExtremes)),
@@ -66,8 +65,7 @@ void SliceWorker::process(const ShellIndex& index, const SlicingPlane& plane,
   const CloudView sorted = index.points();
   cut(index, plane, windows);
   const std::size_t candidates = select(sorted, plane, structure);
-  const std::span<const SlicePoint> hull =
-      convex_hull(std::span(candidates_).first(candidates), vertices_);
+  const Hull hull = convex_hull(std::span(candidates_).first(candidates), vertices_);
   keep(sorted, plane, hull, structure);
 }
 
@@ -80,8 +78,8 @@ void SliceWorker::cut(const ShellIndex& index, const SlicingPlane& plane,
   });
 }
 
-std::span<const SlicePoint> SliceWorker::inscribed_polygon(const CloudView& sorted,
-                                                           const SlicingPlane& plane) noexcept {
+SliceWorker::Hull SliceWorker::inscribed_polygon(const CloudView& sorted,
+                                                 const SlicingPlane& plane) noexcept {
   const std::array<std::size_t, kExtremes> outer = extremes(members(), count_);
   for (std::size_t k = 0; k < kExtremes; ++k) {
     candidates_[k] = exact_point(sorted, plane, position_[outer[k]]);
@@ -99,7 +97,7 @@ std::size_t SliceWorker::select(const CloudView& sorted, const SlicingPlane& pla
     }
     return count_;
   }
-  const std::span<const SlicePoint> polygon = inscribed_polygon(sorted, plane);
+  const Hull polygon = inscribed_polygon(sorted, plane);
   if (polygon.size() < 3) {
     std::fill_n(depth_.begin(), count_, -1.0F);  // everything is outside of nothing
   } else {
@@ -110,19 +108,24 @@ std::size_t SliceWorker::select(const CloudView& sorted, const SlicingPlane& pla
   std::size_t undecided = 0;
   std::size_t candidates = 0;
   for (std::size_t i = 0; i < count_; ++i) {
+    // Written in any case and kept if it counts: whether it does cannot be predicted.
     const std::uint32_t position = position_[i];
-    if (depth_[i] <= tolerance_m_) candidates_[candidates++] = exact_point(sorted, plane, position);
+    candidate_position_[candidates] = position;
+    candidates += static_cast<std::size_t>(depth_[i] <= tolerance_m_);
     u_[undecided] = u_[i];
     z_[undecided] = z_[i];
     position_[undecided] = position;
-    undecided += static_cast<std::size_t>(depth_[i] <= reach_m && !is_set(structure[position]));
+    const bool open = !is_set(structure[position]);
+    undecided += static_cast<std::size_t>(open && depth_[i] <= reach_m);
+  }
+  for (std::size_t k = 0; k < candidates; ++k) {
+    candidates_[k] = exact_point(sorted, plane, candidate_position_[k]);
   }
   count_ = undecided;
   return candidates;
 }
 
-void SliceWorker::keep(const CloudView& sorted, const SlicingPlane& plane,
-                       std::span<const SlicePoint> hull,
+void SliceWorker::keep(const CloudView& sorted, const SlicingPlane& plane, Hull hull,
                        std::span<std::uint8_t> structure) noexcept {
   if (hull.size() < 3) {
     for (std::size_t i = 0; i < count_; ++i) set_flag(structure[position_[i]]);
@@ -132,8 +135,8 @@ void SliceWorker::keep(const CloudView& sorted, const SlicingPlane& plane,
   depth_within(edges(), hull.size(), members(), count_, depth_.data());
   const float e = static_cast<float>(hull_distance_m_);
   for (std::size_t i = 0; i < count_; ++i) {
-    const std::uint32_t position = position_[i];
     if (depth_[i] > e + tolerance_m_) continue;
+    const std::uint32_t position = position_[i];
     if (depth_[i] < e - tolerance_m_ ||
         near_boundary(exact_point(sorted, plane, position), hull, hull_distance_m_)) {
       set_flag(structure[position]);
@@ -141,7 +144,7 @@ void SliceWorker::keep(const CloudView& sorted, const SlicingPlane& plane,
   }
 }
 
-void SliceWorker::set_edges(std::span<const SlicePoint> polygon) noexcept {
+void SliceWorker::set_edges(Hull polygon) noexcept {
   SlicePoint from = polygon.back();
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const SlicePoint to = polygon[k];

@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "core/convex_cut/convex_hull.hpp"
 #include "core/convex_cut/parameters.hpp"
 #include "core/convex_cut/shell_index.hpp"
 #include "core/convex_cut/slice_kernels.hpp"
@@ -25,7 +26,7 @@ namespace convexcut {
 
 class SliceWorker {
  public:
-  // Allocates 60 bytes a point: a slice can hold the whole cloud.
+  // Allocates 64 bytes a point: a slice can hold the whole cloud, and all of it be hull.
   SliceWorker(const ConvexCutParameters& parameters, std::size_t max_points);
 
   // Sets structure[position] = 1 for the members of the plane's slice that are structure. Several
@@ -36,15 +37,16 @@ class SliceWorker {
                std::span<std::uint8_t> structure) noexcept;
 
  private:
+  using Hull = std::span<const SlicePoint>;
+
   void cut(const ShellIndex& index, const SlicingPlane& plane,
            const ShellIndex::Windows& windows) noexcept;
-  [[nodiscard]] std::span<const SlicePoint> inscribed_polygon(const CloudView& sorted,
-                                                              const SlicingPlane& plane) noexcept;
+  [[nodiscard]] Hull inscribed_polygon(const CloudView& sorted, const SlicingPlane& plane) noexcept;
   [[nodiscard]] std::size_t select(const CloudView& sorted, const SlicingPlane& plane,
                                    std::span<const std::uint8_t> structure) noexcept;
-  void keep(const CloudView& sorted, const SlicingPlane& plane, std::span<const SlicePoint> hull,
+  void keep(const CloudView& sorted, const SlicingPlane& plane, Hull hull,
             std::span<std::uint8_t> structure) noexcept;
-  void set_edges(std::span<const SlicePoint> polygon) noexcept;
+  void set_edges(Hull polygon) noexcept;
 
   [[nodiscard]] SliceColumns members() noexcept { return {u_.data(), z_.data(), position_.data()}; }
   [[nodiscard]] EdgeColumns edges() noexcept {
@@ -58,6 +60,7 @@ class SliceWorker {
   std::size_t count_ = 0;  // members; after select() those that are still to be decided
   std::vector<float> u_, z_, depth_;
   std::vector<std::uint32_t> position_;
+  std::vector<std::uint32_t> candidate_position_;
   std::vector<SlicePoint> candidates_;  // for vertices of the hull
   std::vector<SlicePoint> vertices_;
   std::vector<float> normal_u_, normal_z_, edge_offset_;
