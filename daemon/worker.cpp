@@ -19,6 +19,9 @@ constexpr double kFastestLocked_hz = 11.1;
 // How often the worker looks again when a scan was due but its last packet has not come.
 constexpr Duration kLookAgain = std::chrono::microseconds{500};
 
+// Far fewer than a revolution has, even at 20 Hz: they close at most two scans.
+constexpr std::size_t kPacketsAtOnce = 16;
+
 // Without lidar data for this long, results are empty and say so.
 constexpr Duration kSilence = std::chrono::milliseconds{300};
 
@@ -46,15 +49,15 @@ void Worker::run(const std::atomic<bool>& stop, const std::atomic<bool>& lidar_e
     const bool no_more_lidar = lidar_ended.load(std::memory_order_acquire);
     const bool no_more_imu = imu_ended.load(std::memory_order_acquire);
     const HostTime now = clock_.now();
-    drain();
+    const bool drained = drain();
     if (no_more_imu) pipeline_.end_of_imu();
-    if (no_more_lidar) pipeline_.end_of_lidar();
+    if (no_more_lidar && drained) pipeline_.end_of_lidar();
     const unsigned handed_over = hand_over(now);
-    if (no_more_lidar && pipeline_.waiting() == 0) return;
+    if (no_more_lidar && drained && pipeline_.waiting() == 0) return;
     if (!clock_.paced()) {
       if (handed_over == 0) clock_.pause(kLookAgain);
     } else if (handed_over > 0) {
-      tick = next_tick(tick);
+      tick = drained ? next_tick(tick) : now;
     } else if (now >= last_result_end_ + kSilence) {
       hand_over_empty(now);
       tick = now + options_.period;
@@ -64,10 +67,17 @@ void Worker::run(const std::atomic<bool>& stop, const std::atomic<bool>& lidar_e
   }
 }
 
-void Worker::drain() noexcept {
+bool Worker::drain() noexcept {
   // Orientations first: a scan that the lidar's packets close finds its own.
   imu_.consume([this](ImuSample& sample) noexcept { pipeline_.on_imu(sample); });
-  lidar_.consume([this](ReturnBatch& batch) noexcept { pipeline_.on_lidar(batch); });
+  // A few packets at a time, so that no more scans are closed than can wait.
+  while (pipeline_.waiting() + 1 < Pipeline::kMaxWaiting) {
+    if (lidar_.consume([this](ReturnBatch& batch) noexcept { pipeline_.on_lidar(batch); },
+                       kPacketsAtOnce) == 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 unsigned Worker::hand_over(HostTime now) noexcept {

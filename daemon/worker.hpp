@@ -46,7 +46,8 @@ class Worker {
   }
 
  private:
-  void drain() noexcept;
+  // Into the pipeline, until the rings are empty (true) or enough scans wait.
+  [[nodiscard]] bool drain() noexcept;
   // Hands over every scan that is ready; how many.
   unsigned hand_over(HostTime now) noexcept;
   void hand_over_empty(HostTime now) noexcept;

@@ -55,6 +55,9 @@ class Pipeline {
   static constexpr std::size_t kMaxReturnsPerScan = 280'000;
   static constexpr std::size_t kMaxFiringsPerScan = 8'800;
 
+  // How many cut scans can wait for their orientations.
+  static constexpr std::size_t kMaxWaiting = 4;
+
   explicit Pipeline(const PipelineOptions& options);
 
   // In order of arrival.
@@ -88,8 +91,6 @@ class Pipeline {
   [[nodiscard]] std::uint64_t orientations() const noexcept { return orientations_; }
 
  private:
-  static constexpr std::size_t kMaxWaiting = 4;
-
   void wait_for_orientation(Scan& scan) noexcept;
   [[nodiscard]] bool ready(const Scan& scan, HostTime now) const noexcept;
 

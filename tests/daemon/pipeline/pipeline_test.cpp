@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pipeline as a whole, on synthetic batches and samples. Does not prove that its parts are
+// right by themselves (they have their own tests), nor anything about threads.
+#include "daemon/pipeline/pipeline.hpp"
+
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/scan/synthetic_lidar.hpp"
+
+namespace convexcut::daemon {
+namespace {
+
+using std::chrono::milliseconds;
+using test::SyntheticLidar;
+
+// The lidar's counter in the middle of an hour, so that arrivals around it unwrap to it.
+constexpr std::uint32_t kCountAtStart = 1'000'000'000;
+constexpr HostTime kStart = from_ns<HostTime>(1'700'000'000'000'000'000);
+
+PipelineOptions fixed_mount() {
+  PipelineOptions options;
+  options.fixed_mount = true;
+  return options;
+}
+
+PipelineOptions imu_mount() { return PipelineOptions{}; }
+
+// Plays an ideal lidar whose datagrams arrive when their last firing is over, and an IMU.
+class Player {
+ public:
+  explicit Player(const PipelineOptions& options) : pipeline(options) {
+    lidar.start = LidarTime{};
+    lidar.returns_per_firing = 4;
+    reserve(scan, Pipeline::kMaxReturnsPerScan);
+  }
+
+  [[nodiscard]] HostTime arrival(std::int64_t packet) const {
+    return kStart + (lidar.time(packet + 1) - LidarTime{});
+  }
+  void send_packet(std::int64_t number, PpsState pps = PpsState::unknown) {
+    test::TimedBatch timed = lidar.packet(number);
+    const auto elapsed_us = (lidar.time(number) - LidarTime{}).count() / 1000;
+    timed.batch.first_firing = {
+        static_cast<std::uint32_t>((kCountAtStart + elapsed_us) % 3'600'000'000)};
+    timed.batch.arrival = arrival(number) + arrival_delay;
+    timed.batch.pps = pps;
+    pipeline.on_lidar(timed.batch);
+  }
+  void send_packets(std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) send_packet(i);
+  }
+  void send_orientation(Duration after_start, const Quaternion& q = Quaternion::Identity()) {
+    ImuSample sample;
+    sample.arrival = kStart + after_start;
+    sample.has_orientation = true;
+    sample.q_level_from_imu = q;
+    pipeline.on_imu(sample);
+  }
+  void send_orientations(Duration from, Duration to) {
+    for (Duration t = from; t <= to; t += milliseconds{10}) send_orientation(t);
+  }
+  std::vector<LevelledScan> take(HostTime now) {
+    std::vector<LevelledScan> scans;
+    while (pipeline.next_scan(now, scan)) scans.push_back(scan);
+    return scans;
+  }
+
+  SyntheticLidar lidar;
+  Duration arrival_delay{0};
+  Pipeline pipeline;
+  LevelledScan scan;
+};
+
+TEST(Pipeline, AFixedMountGivesAScanARevolution) {
+  Player player(fixed_mount());
+  player.send_packets(0, player.lidar.packets_in(milliseconds{350}));
+  EXPECT_EQ(player.take(kStart).size(), 3U);
+  player.pipeline.end_of_lidar();
+  const auto last = player.take(kStart);
+  ASSERT_EQ(last.size(), 1U);
+  EXPECT_EQ(last[0].end, ScanEnd::end_of_input);
+  EXPECT_NEAR(last[0].coverage, 0.5, 0.02);
+}
+
+TEST(Pipeline, EndingTwiceGivesNothingMore) {
+  Player player(fixed_mount());
+  player.send_packets(0, 50);
+  player.pipeline.end_of_lidar();
+  player.pipeline.end_of_lidar();
+  EXPECT_EQ(player.take(kStart).size(), 1U);
+}
+
+TEST(Pipeline, StampsAreFirstFiringsAndScansDoNotOverlap) {
+  Player player(fixed_mount());
+  HostTime end_of_previous = HostTime::min();
+  for (std::int64_t i = 0; i < player.lidar.packets_in(std::chrono::seconds{2}); ++i) {
+    player.send_packet(i);
+    for (const LevelledScan& scan : player.take(kStart)) {
+      EXPECT_GT(scan.stamp, end_of_previous);
+      EXPECT_GE(scan.last_firing, scan.stamp);
+      end_of_previous = scan.stamp + Duration{scan.time_ns.back()};
+      EXPECT_GE(end_of_previous, scan.last_firing);
+    }
+  }
+  EXPECT_GT(end_of_previous, kStart);
+}
+
+TEST(Pipeline, AFixedMountTurnsThePoints) {
+  PipelineOptions options = fixed_mount();
+  options.q_level_from_lidar = to_quaternion({Degrees{0}, Degrees{0}, Degrees{90}});
+  Player player(options);
+  player.send_packets(0, player.lidar.packets_in(milliseconds{150}));
+  const auto scans = player.take(kStart);
+  ASSERT_EQ(scans.size(), 1U);
+  // The synthetic return i of firing k lies at (k, i, 0): 90° of yaw take it to (−i, k, 0).
+  EXPECT_NEAR(scans[0].x[7], -3.0F, 1e-4F);
+  EXPECT_NEAR(scans[0].y[7], 1.0F, 1e-4F);
+}
+
+TEST(Pipeline, AScanWaitsForTheOrientationOfItsLastFiring) {
+  Player player(imu_mount());
+  player.send_orientations(milliseconds{-10}, milliseconds{90});
+  player.send_packets(0, player.lidar.packets_in(milliseconds{102}));
+  EXPECT_TRUE(player.take(kStart + milliseconds{102}).empty());
+  player.send_orientation(milliseconds{100});
+  const auto scans = player.take(kStart + milliseconds{103});
+  ASSERT_EQ(scans.size(), 1U);
+  EXPECT_EQ(scans[0].dropped_no_orientation, 0U);
+}
+
+TEST(Pipeline, AnOrientationThatDoesNotComeIsWaitedForOnlySoLong) {
+  PipelineOptions options = imu_mount();
+  options.orientation_wait = milliseconds{5};
+  Player player(options);
+  player.send_orientations(Duration{0}, milliseconds{40});
+  player.send_packets(0, player.lidar.packets_in(milliseconds{102}));
+  EXPECT_TRUE(player.take(kStart + milliseconds{104}).empty());
+  const auto scans = player.take(kStart + milliseconds{106});
+  ASSERT_EQ(scans.size(), 1U);
+  // From 90 ms on, the newest orientation is more than 50 ms old: a tenth of the points.
+  const double all = static_cast<double>(scans[0].size() + scans[0].dropped_no_orientation);
+  EXPECT_NEAR(scans[0].dropped_no_orientation / all, 0.1, 0.01);
+  EXPECT_GT(scans[0].size(), 0U);
+}
+
+TEST(Pipeline, WithoutAnyOrientationAllPointsAreDroppedAndCounted) {
+  Player player(imu_mount());
+  player.send_packets(0, player.lidar.packets_in(milliseconds{102}));
+  player.pipeline.end_of_imu();
+  const auto scans = player.take(kStart);
+  ASSERT_EQ(scans.size(), 1U);
+  EXPECT_EQ(scans[0].size(), 0U);
+  EXPECT_EQ(scans[0].dropped_no_orientation, 2171U * 4U);
+}
+
+TEST(Pipeline, EachFiringIsLevelledByTheOrientationAtItsTime) {
+  Player player(imu_mount());
+  // 90° of yaw within the revolution.
+  player.send_orientation(Duration{0});
+  for (int ms = 10; ms <= 110; ms += 10) {
+    player.send_orientation(milliseconds{ms},
+                            to_quaternion({Degrees{0}, Degrees{0}, Degrees{0.9 * ms}}));
+  }
+  player.send_packets(0, player.lidar.packets_in(milliseconds{110}));
+  const auto scans = player.take(kStart + milliseconds{110});
+  ASSERT_EQ(scans.size(), 1U);
+  const std::size_t middle = scans[0].size() / 2;  // ring 0 of a firing at about 50 ms
+  const double x = static_cast<double>(scans[0].x[middle]);
+  const double y = static_cast<double>(scans[0].y[middle]);
+  EXPECT_NEAR(std::atan2(y, x) * 180.0 / 3.14159265, 45.0, 0.2);
+}
+
+TEST(Pipeline, ScansThatNobodyTakesAreDroppedAndCounted) {
+  Player player(fixed_mount());
+  player.send_packets(0, player.lidar.packets_in(milliseconds{705}));
+  EXPECT_EQ(player.pipeline.waiting(), Pipeline::kMaxWaiting);
+  EXPECT_EQ(player.pipeline.scans_cut(), 7U);
+  EXPECT_EQ(player.pipeline.scans_dropped(), 3U);
+  EXPECT_EQ(player.take(kStart).size(), Pipeline::kMaxWaiting);
+}
+
+// The host's time at which the lidar's counter would be UTC: kStart is 22:13:20 UTC, 800 s past the
+// hour.
+constexpr std::uint32_t kUtcCountAtStart = 800'000'000;
+
+std::optional<Duration> stamp_error_with_pps(PpsState pps, Duration host_ahead) {
+  Player player(fixed_mount());
+  for (std::int64_t i = 0; i < player.lidar.packets_in(milliseconds{102}); ++i) {
+    test::TimedBatch timed = player.lidar.packet(i);
+    const auto elapsed_us = (player.lidar.time(i) - LidarTime{}).count() / 1000;
+    timed.batch.first_firing = {static_cast<std::uint32_t>(kUtcCountAtStart + elapsed_us)};
+    timed.batch.arrival = player.arrival(i) + milliseconds{2} + host_ahead;
+    timed.batch.pps = pps;
+    player.pipeline.on_lidar(timed.batch);
+  }
+  const auto scans = player.take(kStart);
+  if (scans.size() != 1) return std::nullopt;
+  return scans[0].stamp - kStart;
+}
+
+TEST(LidarTimeSource, ALockedPpsGivesTheSensorsOwnUtc) {
+  EXPECT_EQ(stamp_error_with_pps(PpsState::locked, Duration{0}), Duration{0});
+}
+
+TEST(LidarTimeSource, WithoutAPpsTheArrivalDelayRemains) {
+  for (const PpsState pps :
+       {PpsState::unknown, PpsState::absent, PpsState::synchronising, PpsState::error}) {
+    const auto error = stamp_error_with_pps(pps, Duration{0});
+    ASSERT_TRUE(error);
+    EXPECT_NEAR(static_cast<double>(error->count()), 2e6, 2e4);
+  }
+}
+
+TEST(LidarTimeSource, APpsAtOddsWithTheHostsClockIsNotBelieved) {
+  const auto error = stamp_error_with_pps(PpsState::locked, std::chrono::seconds{17});
+  ASSERT_TRUE(error);
+  EXPECT_NEAR(static_cast<double>(error->count()), 17.002e9, 1e6);
+}
+
+}  // namespace
+}  // namespace convexcut::daemon
