@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Does not prove that the ranges are short: the benchmark shows that.
+#include "core/convex_cut/shell_index.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/convex_cut/reference.hpp"
+#include "tests/core/convex_cut/clouds.hpp"
+
+namespace convexcut {
+namespace {
+
+TEST(ShellIndex, HoldsEveryPointOnce) {
+  test::Random random(1);
+  ShellIndex index(0.05, 10'000);
+  for (const test::Distribution& distribution : test::distributions()) {
+    const test::Cloud cloud = distribution.make(random);
+    index.build(cloud.view());
+    std::vector<std::uint32_t> source(index.source().begin(), index.source().end());
+    for (std::size_t k = 0; k < source.size(); ++k) {
+      ASSERT_EQ(index.points().x[k], cloud.x[source[k]]);
+      ASSERT_EQ(index.points().y[k], cloud.y[source[k]]);
+      ASSERT_EQ(index.points().z[k], cloud.z[source[k]]);
+    }
+    std::ranges::sort(source);
+    ASSERT_EQ(source.size(), cloud.size());
+    for (std::size_t k = 0; k < source.size(); ++k) ASSERT_EQ(source[k], k);
+  }
+}
+
+TEST(ShellIndex, OffersEveryMemberOfEverySliceOnce) {
+  test::Random random(2);
+  for (const double half_width_m : {1e-6, 1e-4, 0.05, 2.0, 300.0}) {
+    ShellIndex index(half_width_m, 10'000);
+    for (const test::Distribution& distribution : test::distributions()) {
+      const test::Cloud cloud = distribution.make(random);
+      index.build(cloud.view());
+      for (std::uint32_t i = 0; i < 23; ++i) {
+        const SlicingPlane plane = slicing_plane(i, 23);
+        std::vector<int> offered(cloud.size(), 0);
+        index.for_each_candidate_range(ShellIndex::windows(plane), [&](ShellIndex::Range range) {
+          for (std::uint32_t k = range.begin; k < range.end; ++k) ++offered[index.source()[k]];
+        });
+        for (const std::size_t member : reference::cut(cloud.view(), plane, half_width_m)) {
+          ASSERT_EQ(offered[member], 1) << distribution.name << ", plane " << i;
+        }
+        ASSERT_LE(std::ranges::count_if(offered, [](int times) { return times > 1; }), 0);
+      }
+    }
+  }
+}
+
+TEST(ShellIndex, OffersPointsOnEitherSideOfTheSeamOfDirections) {
+  // 0° and 180° are one direction, at opposite ends of the buckets.
+  test::Cloud cloud;
+  for (const double x : {-50.0, -3.0, 3.0, 50.0}) {
+    for (const double y : {-0.04, -1e-7, -0.0, 0.0, 1e-7, 0.04}) cloud.add(x, y, 0);
+  }
+  ShellIndex index(0.05, cloud.size());
+  index.build(cloud.view());
+  std::size_t offered = 0;
+  index.for_each_candidate_range(
+      ShellIndex::windows(slicing_plane(0, 360)),
+      [&](ShellIndex::Range range) { offered += range.end - range.begin; });
+  EXPECT_EQ(offered, cloud.size());
+}
+
+}  // namespace
+}  // namespace convexcut
