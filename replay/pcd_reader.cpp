@@ -64,6 +64,8 @@ class Reader {
     throw std::runtime_error(name_ + ": " + what);
   }
 
+  [[nodiscard]] std::string here() const { return "line " + std::to_string(line_number_) + ": "; }
+
   // Up to and without the next line feed; the rest stays.
   std::optional<std::string_view> next_line() {
     if (position_ >= content_.size()) return std::nullopt;
@@ -106,16 +108,12 @@ class Reader {
     } else if (key == "TYPE") {
       for (Field& field : header_.fields) words >> field.type;
     } else if (key == "POINTS") {
-      words >> header_.points;
+      if (!(words >> header_.points)) fail(here() + "expected a number after POINTS");
     } else if (key == "DATA") {
       words >> header_.data;
       if (header_.data.empty()) header_.data = "(nothing)";
     } else if (key != "VERSION" && key != "WIDTH" && key != "HEIGHT" && key != "VIEWPOINT") {
-      fail("line " + std::to_string(line_number_) + ": expected a PCD header, found \"" +
-           printable(key) + "\"");
-    }
-    if (words.fail() && !words.eof()) {
-      fail("line " + std::to_string(line_number_) + ": expected a number after " + key);
+      fail(here() + "expected a PCD header, found \"" + printable(key) + "\"");
     }
   }
 
@@ -125,8 +123,8 @@ class Reader {
     for (Field& field : header_.fields) {
       std::size_t value = 0;
       if (!(words >> value) || value == 0 || value > kMost) {
-        fail("line " + std::to_string(line_number_) + ": expected " + key +
-             " with a number of 1 to " + std::to_string(kMost) + " for each field");
+        fail(here() + "expected " + key + " with a number of 1 to " + std::to_string(kMost) +
+             " for each field");
       }
       set(field, value);
     }
@@ -234,7 +232,7 @@ class Reader {
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
       if (error == std::errc{} && end == text.data() + text.size()) return value;
     }
-    fail("line " + std::to_string(line_number_) + ": expected a number for " + field.name);
+    fail(here() + "expected a number for " + field.name);
   }
 
   std::string name_;

@@ -21,9 +21,11 @@ namespace {
 
 constexpr int kWidth = 1600;
 constexpr int kHeight = 820;
-constexpr PixelRect kTopArea{64, 92, 700, 656};
-constexpr PixelRect kSliceArea{848, 92, 712, 372};
-constexpr PixelRect kLegendArea{848, 548, 712, 200};
+constexpr double kTitleBase = 34;  // base lines of the text above the plots
+constexpr double kHeadingBase = 70;
+constexpr PixelRect kTopArea{64, 100, 700, 652};
+constexpr PixelRect kSliceArea{848, 100, 712, 340};
+constexpr PixelRect kLegendArea{848, 536, 712, 216};
 
 // The points that are drawn.
 struct Cloud {
@@ -116,7 +118,7 @@ Pixel border(Pixel from, double dx, double dy, const PixelRect& rect, double ins
 void draw_top_view(Canvas& canvas, const Cloud& cloud, const SlicingPlane& plane) {
   const Plot plot(kTopArea, extent_of({cloud.y.begin(), cloud.y.end()}),
                   extent_of({cloud.x.begin(), cloud.x.end()}), Plot::Direction::leftwards);
-  canvas.text({kTopArea.left, 64}, theme::kHeadingSize, theme::kInk, "From above");
+  canvas.text({kTopArea.left, kHeadingBase}, theme::kHeadingSize, theme::kInk, "From above");
   plot.draw_grid(canvas, "y, to the left (m)", "x, forward (m)");
 
   DotDensity dots(kTopArea);
@@ -161,14 +163,15 @@ void draw_slice(Canvas& canvas, const Cloud& cloud, const Slice& slice) {
     z.push_back(vertex.z);
   }
   const Plot plot(kSliceArea, extent_of(u), extent_of(z));
-  canvas.text({kSliceArea.left, 64}, theme::kHeadingSize, theme::kInk, "Slice A - B");
+  canvas.text({kSliceArea.left, kHeadingBase}, theme::kHeadingSize, theme::kInk, "Slice A - B");
   plot.draw_grid(canvas, "along the slice (m)", "z, up (m)");
 
   canvas.clip(kSliceArea);
   std::vector<Pixel> corners;
   for (const SlicePoint& vertex : slice.hull) corners.push_back(plot.at(vertex.u, vertex.z));
-  canvas.closed_line(corners, 1.4, theme::kInk);
   const auto [structure, other] = palette(cloud);
+  canvas.fill_convex(corners, structure, 0.05);
+  canvas.closed_line(corners, 1.4, theme::kInk);
   // The rest comes last: it is what one looks for, and it is less.
   for (const Label label : {Label::structure, Label::other}) {
     for (std::size_t i = 0; i < slice.points.size(); ++i) {
@@ -185,6 +188,14 @@ void draw_slice(Canvas& canvas, const Cloud& cloud, const Slice& slice) {
   canvas.unclip();
   plot.draw_scale_bar(canvas);
   plot.draw_frame(canvas);
+}
+
+// The title, without its middle where it is too long: file names begin and end with what matters.
+std::string fitted(const std::string& title, double size, double width) {
+  if (Canvas::text_width(size, title) <= width) return title;
+  const auto room = static_cast<std::size_t>(width / Canvas::text_width(size, "-----") * 4.0);
+  const std::size_t half = std::min(room, title.size()) / 2;
+  return title.substr(0, half) + "..." + title.substr(title.size() - half);
 }
 
 std::string share(std::size_t part, std::size_t whole) {
@@ -285,7 +296,8 @@ void render_picture(const PictureInput& input, const std::filesystem::path& png)
   const Slice slice = slice_of(cloud, plane, input.slice_half_width_m);
 
   Canvas canvas(kWidth, kHeight, theme::kPaper);
-  canvas.text({kTopArea.left, 36}, theme::kTitleSize, theme::kInk, input.title);
+  canvas.text({kTopArea.left, kTitleBase}, theme::kTitleSize, theme::kInk,
+              fitted(input.title, theme::kTitleSize, kSliceArea.right() - kTopArea.left));
   draw_top_view(canvas, cloud, plane);
   draw_slice(canvas, cloud, slice);
   draw_legend(canvas, cloud, slice, input);

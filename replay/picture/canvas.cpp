@@ -142,6 +142,24 @@ void Canvas::closed_line(std::span<const Pixel> corners, double width, Colour co
   }
 }
 
+void Canvas::fill_convex(std::span<const Pixel> corners, Colour colour, double opacity) noexcept {
+  if (corners.size() < 3) return;
+  const auto [left, right] = std::ranges::minmax_element(corners, {}, &Pixel::x);
+  const auto [top, bottom] = std::ranges::minmax_element(corners, {}, &Pixel::y);
+  shade(left->x, top->y, right->x, bottom->y, colour, opacity, [&](Pixel p) {
+    bool clockwise = true;
+    bool counter_clockwise = true;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Pixel a = corners[i];
+      const Pixel b = corners[(i + 1) % corners.size()];
+      const double side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+      clockwise = clockwise && side >= 0;
+      counter_clockwise = counter_clockwise && side <= 0;
+    }
+    return clockwise || counter_clockwise ? 1.0 : 0.0;
+  });
+}
+
 double Canvas::text_width(double size, std::string_view words) noexcept {
   const double dot = size / Glyph::kRowsAboveBase;
   return words.empty() ? 0.0 : (static_cast<double>(words.size()) * kAdvance - 1.0) * dot;

@@ -66,6 +66,9 @@ class Canvas {
   void dashed_line(Pixel from, Pixel to, double width, double dash, Colour colour) noexcept;
   void closed_line(std::span<const Pixel> corners, double width, Colour colour) noexcept;
 
+  // Corners in either sense of turning.
+  void fill_convex(std::span<const Pixel> corners, Colour colour, double opacity) noexcept;
+
   // The base line's point of the text; `size` is the height of a capital letter.
   void text(Pixel at, double size, Colour colour, std::string_view words,
             Align align = Align::left) noexcept;

@@ -89,7 +89,7 @@ void Plot::draw_grid(Canvas& canvas, std::string_view horizontal_name,
   });
   canvas.text({area_.centre().x, number_base + theme::kNumberSize + 11}, theme::kNumberSize,
               theme::kQuiet, horizontal_name, Align::centre);
-  canvas.text({area_.left - kNumberGap, area_.top - kNumberGap}, theme::kNumberSize, theme::kQuiet,
+  canvas.text({area_.left, area_.top - kNumberGap}, theme::kNumberSize, theme::kQuiet,
               vertical_name, Align::left);
 }
 
