@@ -26,11 +26,10 @@ LidarDriver::LidarDriver(const LidarDriverOptions& options, Sink<ReturnBatch>& s
 
 void LidarDriver::on_datagram(wire::Bytes payload, std::uint16_t destination_port, HostTime arrival,
                               Ipv4Address source) noexcept {
-  if (options_.from && source != *options_.from) {
-    counters_.foreign.add();
-  } else if (destination_port == options_.data_port) {
+  const bool expected_sender = !options_.from || source == *options_.from;
+  if (expected_sender && destination_port == options_.data_port) {
     on_data(payload, arrival);
-  } else if (destination_port == options_.position_port) {
+  } else if (expected_sender && destination_port == options_.position_port) {
     on_position(payload);
   } else {
     counters_.foreign.add();

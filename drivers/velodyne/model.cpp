@@ -99,7 +99,7 @@ constexpr bool is_consistent(const Model& model) noexcept {
   const std::uint64_t all_rings = (std::uint64_t{1} << model.lasers) - 1;
   const std::uint32_t shots = model.lasers / model.lasers_at_once;
   return rings == all_rings &&  // a permutation: no two beams have the same elevation
-         model.lasers * model.firings_per_block == wire_layout::kReturnsPerBlock &&
+         std::size_t{model.lasers} * model.firings_per_block == wire_layout::kReturnsPerBlock &&
          shots * model.laser_interval_ns + model.recharge_ns == model.firing_period_ns;
 }
 static_assert(std::ranges::all_of(kModels, is_consistent));

@@ -115,11 +115,12 @@ bool parse_angle(std::string_view text, std::string_view hemisphere, const Angle
   const std::optional<Decimal> number = parse_decimal(text, format.whole_digits);
   if (!number || hemisphere.size() != 1) return false;
   if (hemisphere[0] != format.positive && hemisphere[0] != format.negative) return false;
+  const std::int64_t whole_degrees = number->whole / 100;
   const std::int64_t whole_minutes = number->whole % 100;
   if (whole_minutes > 59) return false;
   const double minutes =
       static_cast<double>(whole_minutes) + static_cast<double>(number->billionths) * 1e-9;
-  const double degrees = static_cast<double>(number->whole / 100) + minutes / 60.0;
+  const double degrees = static_cast<double>(whole_degrees) + minutes / 60.0;
   if (degrees > format.max_degrees) return false;
   angle = Degrees{hemisphere[0] == format.positive ? degrees : -degrees};
   return true;
