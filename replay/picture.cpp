@@ -59,20 +59,17 @@ Cloud drawable(const PictureInput& input) {
   return out;
 }
 
-// Where the points and the origin are, but for one in five hundred at each end: a few far returns
-// through a door must not shrink the room to a dot.
-Extent extent_of(std::vector<double> values) {
-  constexpr double kOutliers = 0.002;
+// Where the values and the origin are, with a margin; but for a share of them at each end.
+Extent extent_of(std::vector<double> values, double outliers) {
   constexpr double kMargin = 0.04;
   constexpr double kLeast = 1.0;  // m, to both sides of the middle
   Extent extent;
   if (!values.empty()) {
-    const auto at = [&](double share) {
-      const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-      std::nth_element(values.begin(), values.begin() + rank, values.end());
-      return values[static_cast<std::size_t>(rank)];
-    };
-    extent = {std::min(0.0, at(kOutliers)), std::max(0.0, at(1.0 - kOutliers))};
+    const auto skipped = static_cast<std::ptrdiff_t>(outliers * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + skipped, values.end());
+    extent.low = std::min(0.0, values[static_cast<std::size_t>(skipped)]);
+    std::nth_element(values.begin(), values.end() - 1 - skipped, values.end());
+    extent.high = std::max(0.0, *(values.end() - 1 - skipped));
   }
   const double half = std::max(kLeast, extent.length() * (0.5 + kMargin));
   return {extent.middle() - half, extent.middle() + half};
@@ -116,8 +113,11 @@ Pixel border(Pixel from, double dx, double dy, const PixelRect& rect, double ins
 }
 
 void draw_top_view(Canvas& canvas, const Cloud& cloud, const SlicingPlane& plane) {
-  const Plot plot(kTopArea, extent_of({cloud.y.begin(), cloud.y.end()}),
-                  extent_of({cloud.x.begin(), cloud.x.end()}), Plot::Direction::leftwards);
+  // A few far returns through a door must not shrink the room to a dot.
+  constexpr double kOutliers = 0.002;
+  const Plot plot(kTopArea, extent_of({cloud.y.begin(), cloud.y.end()}, kOutliers),
+                  extent_of({cloud.x.begin(), cloud.x.end()}, kOutliers),
+                  Plot::Direction::leftwards);
   canvas.text({kTopArea.left, kHeadingBase}, theme::kHeadingSize, theme::kInk, "From above");
   plot.draw_grid(canvas, "y, to the left (m)", "x, forward (m)");
 
@@ -162,7 +162,8 @@ void draw_slice(Canvas& canvas, const Cloud& cloud, const Slice& slice) {
     u.push_back(vertex.u);
     z.push_back(vertex.z);
   }
-  const Plot plot(kSliceArea, extent_of(u), extent_of(z));
+  // The hull is shown whole: a far corner is what explains its shape.
+  const Plot plot(kSliceArea, extent_of(u, 0.0), extent_of(z, 0.0));
   canvas.text({kSliceArea.left, kHeadingBase}, theme::kHeadingSize, theme::kInk, "Slice A - B");
   plot.draw_grid(canvas, "along the slice (m)", "z, up (m)");
 
