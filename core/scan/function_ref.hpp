@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <concepts>
-#include <functional>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -17,16 +15,16 @@ class FunctionRef;
 template <class Result, class... Args>
 class FunctionRef<Result(Args...)> {
  public:
-  template <class Callable>
-  requires(!std::same_as<std::remove_cvref_t<Callable>, FunctionRef> &&
-           std::is_invocable_r_v<Result, Callable&, Args...>)
-      // NOLINTNEXTLINE(google-explicit-constructor,bugprone-forwarding-reference-overload)
-      FunctionRef(Callable&& callable)
-  noexcept
+  // Implicit: a lambda is passed as it stands.
+  template <class Callable, std::enable_if_t<!std::is_same_v<std::decay_t<Callable>, FunctionRef> &&
+                                                 std::is_invocable_r_v<Result, Callable&, Args...>,
+                                             int> = 0>
+  FunctionRef(Callable&& callable) noexcept
+      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): call_ gives it its const back
       : object_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
         call_([](void* object, Args... args) -> Result {
-          return std::invoke(*static_cast<std::remove_reference_t<Callable>*>(object),
-                             std::forward<Args>(args)...);
+          return (*static_cast<std::remove_reference_t<Callable>*>(object))(
+              std::forward<Args>(args)...);
         }) {}
 
   Result operator()(Args... args) const { return call_(object_, std::forward<Args>(args)...); }

@@ -28,12 +28,13 @@ void PacketSequencer::push(const ReturnBatch& batch, LidarTime first_firing, Emi
   if (!started_) return start(batch, first_firing, emit);
 
   const Duration ahead = first_firing - last_;
-  if (ahead > kResync || ahead < -kResync || refused_in_a_row_ >= kRefusedIsResync) {
+  const std::int64_t turn = place(first_firing);
+  const bool set_back = turn <= 0 && refused_in_a_row_ >= kRefusedIsResync;
+  if (ahead > kResync || ahead < -kResync || set_back) {
     flush(emit);
     counters_.resyncs.add();
     return start(batch, first_firing, emit);
   }
-  const std::int64_t turn = place(first_firing);
   if (turn <= 0) return refuse_passed(turn);
   refused_in_a_row_ = 0;
   if (turn == 1) {

@@ -56,7 +56,7 @@ class PacketSequencer {
   void pass_first_held(Emit emit) noexcept;
   void pass_held_in_turn(Emit emit) noexcept;
   void refuse_passed(std::int64_t place) noexcept;
-  [[nodiscard]] bool is_held(std::int64_t place) const noexcept;
+  [[nodiscard]] bool is_held(std::int64_t turn) const noexcept;
   void hold(const ReturnBatch& batch, LidarTime first_firing) noexcept;
 
   std::vector<ReturnBatch> slots_;

@@ -181,6 +181,20 @@ TEST(PacketSequencer, ClockSetBackALittleIsFollowedAfterAWhile) {
   EXPECT_EQ(s.passed.back(), 699);
 }
 
+TEST(PacketSequencer, FrozenClockPassesNextToNothing) {
+  Sequencing s;
+  for (int i = 0; i < 1000; ++i) s.push(7);
+  EXPECT_LE(s.passed.size(), 1000U / 64U + 1U);
+}
+
+TEST(PacketSequencer, ManyRepetitionsAreNoRestart) {
+  Sequencing s;
+  for (int i = 0; i < 64; ++i) s.push(7);
+  s.push(8);
+  EXPECT_THAT(s.passed, ElementsAre(7, 8));
+  EXPECT_EQ(s.sequencer.counters().resyncs.value(), 0U);
+}
+
 TEST(PacketSequencer, BatchWithoutFiringsIsIgnored) {
   PacketSequencer sequencer;
   const ReturnBatch empty{};
