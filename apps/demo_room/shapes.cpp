@@ -23,7 +23,8 @@ Box::Box(const Vec3& centre, const Vec3& size, Degrees yaw, Surface surface) noe
       surface_(surface) {}
 
 // The slab method: a ray is inside the box while it is between the planes of all three axes.
-// Divisions by a zero component give infinities, which compare as they should.
+// Division by a zero component gives infinities, which compare as they should, or, on the very
+// plane of a side, no number, which compares as false and leaves the others to decide.
 void Box::meet(const Ray& ray, Hit& nearest) const noexcept {
   const Vec3 origin = turned(ray.origin - centre_, cos_yaw_, sin_yaw_);
   const Vec3 direction = turned(ray.direction, cos_yaw_, sin_yaw_);
@@ -76,10 +77,11 @@ void Cylinder::meet(const Ray& ray, Hit& nearest) const noexcept {
 Hit RoomShell::meet(const Ray& ray) const noexcept {
   Hit hit;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (ray.direction[axis] == 0.0) continue;  // parallel to both sides
     const bool upwards = ray.direction[axis] > 0.0;
     const double side = upwards ? high_[axis] : low_[axis];
     const double range = (side - ray.origin[axis]) / ray.direction[axis];
-    if (!(range < hit.range_m)) continue;  // also when parallel: infinite or not a number
+    if (range >= hit.range_m) continue;
     Surface surface = Surface::wall;
     if (axis == 2) surface = upwards ? Surface::ceiling : Surface::floor;
     hit = {range, std::abs(ray.direction[axis]), surface};
