@@ -14,19 +14,17 @@ namespace {
 constexpr std::size_t kShownBytes = 60;
 
 std::string shown(const Found& found) {
-  if (const auto* other = std::get_if<std::string_view>(&found)) return std::string(*other);
-  const Value& value = std::get<Value>(found);
-  if (const auto* text = std::get_if<std::string>(&value)) {
-    return '"' + printable(*text, kShownBytes) + '"';
-  }
-  return to_toml(value, Boolean{});
+  if (!found.other.empty()) return std::string(found.other);
+  const auto* text = std::get_if<std::string>(&found.value);
+  return text != nullptr ? concat("\"", printable(*text, kShownBytes), "\"")
+                         : to_toml(found.value, Boolean{});
 }
 
 }  // namespace
 
 void Draft::assign(const Key& key, const Found& found, std::string place) {
   std::optional<Value> accepted;
-  if (const auto* value = std::get_if<Value>(&found)) accepted = accept(key.domain, *value);
+  if (found.other.empty()) accepted = accept(key.domain, found.value);
   if (accepted) {
     key.set(config_, *accepted);
   } else {

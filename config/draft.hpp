@@ -7,7 +7,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "config/config.hpp"
@@ -15,8 +14,11 @@
 
 namespace convexcut::config {
 
-// What was found where a value was expected: one, or the name of what it is instead ("an array").
-using Found = std::variant<Value, std::string_view>;
+// What was found where a value was expected.
+struct Found {
+  Value value;
+  std::string_view other{};  // what it is when it is no value: "an array"
+};
 
 class Draft {
  public:

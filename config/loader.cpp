@@ -23,13 +23,13 @@ namespace {
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 20U;
 
 Found found_in(const toml::node& node) {
-  if (const auto* text = node.as_string()) return Value(text->get());
-  if (const auto* integer = node.as_integer()) return Value(integer->get());
-  if (const auto* number = node.as_floating_point()) return Value(number->get());
-  if (const auto* boolean = node.as_boolean()) return Value(boolean->get());
-  if (node.is_table()) return std::string_view("a table");
-  if (node.is_array()) return std::string_view("an array");
-  return std::string_view("a date or time");
+  if (const auto* text = node.as_string()) return {text->get()};
+  if (const auto* integer = node.as_integer()) return {integer->get()};
+  if (const auto* number = node.as_floating_point()) return {number->get()};
+  if (const auto* boolean = node.as_boolean()) return {boolean->get()};
+  if (node.is_table()) return {{}, "a table"};
+  if (node.is_array()) return {{}, "an array"};
+  return {{}, "a date or time"};
 }
 
 // One key of a file, with its place.
@@ -95,14 +95,14 @@ Found value_of_override(const Key& key, std::string_view text) {
   const bool is_text =
       std::holds_alternative<Text>(key.domain) || std::holds_alternative<Choice>(key.domain);
   const bool has_quotes = text.starts_with('"') || text.starts_with('\'');
-  if (is_text && !has_quotes) return Value(std::string(text));
+  if (is_text && !has_quotes) return {std::string(text)};
   try {
     const toml::table root = toml::parse("value = " + std::string(text));
     if (root.size() == 1) return found_in(*root.get("value"));
   } catch (const toml::parse_error&) {
     // It is reported as the text that it is.
   }
-  return Value(std::string(text));
+  return {std::string(text)};
 }
 
 void take_override(const std::string& override_text, Draft& draft) {

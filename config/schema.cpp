@@ -101,8 +101,8 @@ std::string to_toml(const Value& value, const Domain& domain) {
                         },
                         [](double v) {
                           std::string text = number_text(v);
-                          // TOML tells a float from an integer by its point or exponent.
-                          if (text.find_first_of(".e") == std::string::npos) text += ".0";
+                          // TOML tells a float by its point or exponent; nan and inf have neither.
+                          if (text.find_first_of(".en") == std::string::npos) text += ".0";
                           return text;
                         },
                         [](const std::string& v) { return quoted(v); },

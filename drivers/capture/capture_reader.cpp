@@ -73,7 +73,7 @@ CaptureReader::CaptureReader(std::FILE* stream, std::string name)
       ::pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, error.data()));
   if (handle_ == nullptr) {
     const bool empty = std::feof(stream) != 0 && ::ftello(stream) == 0;
-    std::fclose(stream);
+    static_cast<void>(std::fclose(stream));
     if (empty) throw CaptureError(name_ + ": is empty, expected a pcap or pcapng capture");
     throw CaptureError(name_ + ": not a pcap or pcapng capture: " + error.data());
   }

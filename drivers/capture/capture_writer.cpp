@@ -101,7 +101,7 @@ CaptureWriter::CaptureWriter(std::filesystem::path file, LinkKind link)
   }
   dumper_.reset(::pcap_dump_fopen(handle_.get(), stream));
   if (dumper_ == nullptr) {
-    std::fclose(stream);
+    static_cast<void>(std::fclose(stream));
     fail("write");
   }
 }

@@ -8,7 +8,9 @@
 
 namespace convexcut::capture {
 
-void SerialLog::Close::operator()(std::FILE* stream) const noexcept { std::fclose(stream); }
+void SerialLog::Close::operator()(std::FILE* stream) const noexcept {
+  static_cast<void>(std::fclose(stream));
+}
 
 SerialLog::SerialLog(const std::filesystem::path& file)
     : name_(file.string()),
@@ -21,7 +23,7 @@ SerialLog::SerialLog(const std::filesystem::path& file)
     }
     throw CaptureError(name_ + ": is empty, expected a recording of a serial line");
   }
-  std::ungetc(first, stream_.get());
+  static_cast<void>(std::ungetc(first, stream_.get()));  // one byte always fits
 }
 
 ReadStatus SerialLog::next(std::span<const std::byte>& chunk) noexcept {
