@@ -111,6 +111,32 @@ TEST(LidarDriver, PacketsOfNoKnownModelAreCountedAndTheNextOnesTried) {
   EXPECT_EQ(sink.batches.size(), 4U);
 }
 
+TEST(LidarDriver, EvidenceOfDroppedPacketsIsForgotten) {
+  CollectingSink sink;
+  LidarDriver driver({}, sink);
+  DataPacket packet = DataPacket().mode(0).product(0);
+  std::uint32_t micros = 0;
+  for (int n = 0; n < 8; ++n) {  // two sensors' steps in turn contradict each other
+    driver.on_datagram(packet.timestamp(micros).bytes(), kData, at(n));
+    micros += n % 2 == 0 ? 553 : 1327;
+  }
+  EXPECT_EQ(driver.counters().model_unknown.value(), 8U);
+  for (int n = 8; n < 12; ++n) {
+    driver.on_datagram(packet.timestamp(micros).bytes(), kData, at(n));
+    micros += 553;
+  }
+  EXPECT_EQ(driver.model(), ModelId::hdl32e);
+}
+
+TEST(LidarDriver, FlushCountsPacketsOfNoKnownModel) {
+  CollectingSink sink;
+  LidarDriver driver({}, sink);
+  driver.on_datagram(DataPacket().mode(0).product(0).bytes(), kData, at(0));
+  driver.flush();
+  EXPECT_FALSE(driver.model().has_value());
+  EXPECT_EQ(driver.counters().model_unknown.value(), 1U);
+}
+
 TEST(LidarDriver, EightPacketsWithoutUsableTimesAreDecodedByTheirProductByte) {
   CollectingSink sink;
   LidarDriver driver({}, sink);

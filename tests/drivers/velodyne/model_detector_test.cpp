@@ -128,6 +128,19 @@ TEST(ModelDetector, AClockThatIsSetInBetweenIsPassedOver) {
   EXPECT_EQ(detector.observe(after.packet(4).bytes()), ModelId::hdl32e);
 }
 
+// The 663 µs from the last dual packet to the first single one would be a VLP-32C's.
+TEST(ModelDetector, AChangeOfReturnModeIsPassedOver) {
+  DataPacket packet;
+  ModelDetector detector;
+  packet.mode(kDual);
+  EXPECT_EQ(detector.observe(packet.timestamp(0).bytes()), std::nullopt);
+  EXPECT_EQ(detector.observe(packet.timestamp(663).bytes()), std::nullopt);
+  packet.mode(kSingle);
+  EXPECT_EQ(detector.observe(packet.timestamp(1327).bytes()), std::nullopt);
+  EXPECT_EQ(detector.observe(packet.timestamp(2654).bytes()), std::nullopt);
+  EXPECT_EQ(detector.observe(packet.timestamp(3981).bytes()), ModelId::vlp16);
+}
+
 TEST(ModelDetector, WithoutUsableStepsTheProductByteDecides) {
   EXPECT_EQ(detect({40.0, kSingle, 0x22}, {0, 1, 2, 3, 4, 5, 6, 7}), ModelId::vlp16);
   EXPECT_EQ(detect({552.96, kSingle, 0x24}, {0}), ModelId::puck_hires);
