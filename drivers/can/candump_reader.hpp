@@ -54,7 +54,9 @@ class CandumpReader {
 
  private:
   struct Close {
-    void operator()(std::FILE* stream) const noexcept { std::fclose(stream); }
+    void operator()(std::FILE* stream) const noexcept {
+      static_cast<void>(std::fclose(stream));  // only read from: nothing can be lost
+    }
   };
   struct Line {
     std::string_view text;  // its first kMaxLine characters, until the next call

@@ -27,9 +27,9 @@ class FieldReader {
 
 constexpr std::size_t kTimeBlock = 4 + 2 + 6 + 4 + 4;
 constexpr std::size_t kFixBlock = 4;
-constexpr std::size_t kPositionBlock = 6 * 4;
-constexpr std::size_t kVelocityBlock = 8 * 4;
-constexpr std::size_t kDilutionBlock = 7 * 2;
+constexpr std::size_t kPositionBlock = 6UL * 4;
+constexpr std::size_t kVelocityBlock = 8UL * 4;
+constexpr std::size_t kDilutionBlock = 7UL * 2;
 static_assert(kTimeBlock + kFixBlock + kPositionBlock + kVelocityBlock + kDilutionBlock ==
               GnssPvt::kSize);
 

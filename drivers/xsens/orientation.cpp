@@ -17,7 +17,7 @@ std::optional<Quaternion> from_quaternion(const Reals<4>& wxyz) noexcept {
 
 std::optional<Quaternion> from_matrix(const Reals<9>& column_by_column) noexcept {
   const Eigen::Matrix3d rotation(Eigen::Map<const Eigen::Matrix3d>(column_by_column.data()));
-  static_assert(!Eigen::Matrix3d::IsRowMajor, "the wire's order is Eigen's");
+  static_assert(Eigen::Matrix3d::IsRowMajor == 0, "the wire's order is Eigen's");
   const Eigen::Matrix3d excess = rotation.transpose() * rotation - Eigen::Matrix3d::Identity();
   const bool orthonormal = excess.norm() <= 0.01;  // false for NaN, too
   if (!orthonormal || rotation.determinant() < 0) return std::nullopt;

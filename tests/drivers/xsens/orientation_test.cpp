@@ -98,6 +98,18 @@ TEST(Orientation, NedAndEnuOfTheSamePoseAgree) {
   expect_same_rotation(*ned, *enu, 1e-12);
 }
 
+TEST(Orientation, NedIsTurnedInTheLocalFrameNotInTheSensors) {
+  // Rolled to the right in NED with the nose to the north-east: sensor axes told one by one.
+  const Quaternion q_ned = to_quaternion({Degrees{90}, Degrees{0}, Degrees{45}});
+  const auto q = q_level_from_imu(
+      with_quaternion({q_ned.w(), q_ned.x(), q_ned.y(), q_ned.z()}, CoordinateSystem::ned));
+  ASSERT_TRUE(q);
+  const double h = std::sqrt(0.5);
+  EXPECT_TRUE((*q * Vec3::UnitX()).isApprox(Vec3(h, h, 0), 1e-12)) << "nose: north-east";
+  EXPECT_TRUE((*q * Vec3::UnitY()).isApprox(-Vec3::UnitZ(), 1e-12)) << "right wing: down";
+  EXPECT_TRUE((*q * Vec3::UnitZ()).isApprox(Vec3(-h, h, 0), 1e-12)) << "belly: north-west";
+}
+
 TEST(Orientation, NwuIsZUpAlready) {
   const auto q = q_level_from_imu(with_quaternion({1, 0, 0, 0}, CoordinateSystem::nwu));
   ASSERT_TRUE(q);
