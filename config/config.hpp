@@ -25,6 +25,7 @@ struct Lidar {
   LidarModel model = LidarModel::automatic;
   std::uint16_t data_port = 2368;
   std::uint16_t position_port = 8308;
+  std::string source_address;  // IPv4 address of the sensor, see parse_ipv4(); empty: any
   double min_range_m = 0.5;
   double max_range_m = 100.0;
   Degrees cut_azimuth{0.0};

@@ -13,6 +13,7 @@ constexpr Text kTopic{"a ROS topic name without leading slash (letters, digits, 
                       is_topic_name};
 constexpr Text kFrame{"a frame name without spaces and leading slash", is_frame_name};
 constexpr Text kPath{"a path, or nothing", is_path_or_empty};
+constexpr Text kAddress{"an IPv4 address like 192.168.1.201, or nothing", is_ipv4_or_empty};
 constexpr Text kInterface{"the name of a network interface (at most 15 characters), or nothing",
                           is_interface_or_empty};
 
@@ -40,6 +41,9 @@ constexpr std::array kKeys{
                                                 "UDP port of the data packets."),
     bind_key<&Config::lidar, &Lidar::position_port>("lidar.position_port", kPort, "",
                                                     "UDP port of the position packets."),
+    bind_key<&Config::lidar, &Lidar::source_address>(
+        "lidar.source_address", kAddress, "",
+        "The sensor's own address: packets of other senders are dropped; empty: any sender."),
     bind_key<&Config::lidar, &Lidar::min_range_m>("lidar.min_range_m", Number{0.0, 200.0}, "m",
                                                   "Nearer returns are dropped."),
     bind_key<&Config::lidar, &Lidar::max_range_m>("lidar.max_range_m", Number{0.0, 300.0}, "m",
@@ -80,7 +84,7 @@ constexpr std::array kKeys{
                                             "The IMU on the lidar: imu from lidar, about z."),
     bind_key<&Config::imu, &Imu::max_age_ms>(
         "imu.max_age_ms", Integer{1, 10'000}, "ms",
-        "Points farther in time from an orientation than this are not levelled."),
+        "How long an orientation is held, or interpolated over, when samples are missing."),
     bind_key<&Config::imu, &Imu::baud>(
         "imu.baud", Integer{0, 4'000'000}, "bit/s",
         "Rate of the serial line, which gives the time its bytes take; 0: no line (USB)."),
@@ -122,8 +126,9 @@ constexpr std::array kKeys{
     bind_key<&Config::convex_cut, &ConvexCut::threads>("convex_cut.threads", Integer{1, 64}, "",
                                                        "Threads that share the work."),
 
-    bind_key<&Config::worker, &Worker::period_ms>("worker.period_ms", Integer{10, 1'000}, "ms",
-                                                  "One result each."),
+    bind_key<&Config::worker, &Worker::period_ms>(
+        "worker.period_ms", Integer{10, 1'000}, "ms",
+        "A result is made and published once in this time."),
     bind_key<&Config::worker, &Worker::latency_ms>(
         "worker.latency_ms", Integer{1, 1'000}, "ms",
         "Constant time from a scan's last firing to its publication."),

@@ -65,7 +65,7 @@ struct Section {
 
 // The value as the key's type (an integer where a number is asked for becomes one), or nothing when
 // it is of another type, out of range or not finite.
-[[nodiscard]] std::optional<Value> accept(const Domain& domain, const Value& value);
+[[nodiscard]] std::optional<Value> accept(const Domain& domain, Value value);
 
 // As TOML. Numbers are the shortest decimals that read back as the same double.
 [[nodiscard]] std::string to_toml(const Value& value, const Domain& domain);

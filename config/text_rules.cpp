@@ -2,7 +2,10 @@
 #include "config/text_rules.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
+
+#include <system_error>
 
 namespace convexcut::config {
 namespace {
@@ -48,6 +51,23 @@ bool is_frame_name(std::string_view text) noexcept {
 bool is_path_or_empty(std::string_view text) noexcept {
   return text.size() <= kMaxPath && std::ranges::none_of(text, is_control);
 }
+
+std::optional<std::uint32_t> parse_ipv4(std::string_view text) noexcept {
+  std::uint32_t address = 0;
+  const char* next = text.data();
+  const char* const end = text.data() + text.size();
+  for (int octet = 0; octet < 4; ++octet) {
+    if (octet > 0 && (next == end || *next++ != '.')) return std::nullopt;
+    std::uint8_t value = 0;
+    const auto [stop, error] = std::from_chars(next, end, value);
+    if (error != std::errc{} || (*next == '0' && stop - next > 1)) return std::nullopt;
+    address = (address << 8U) | value;
+    next = stop;
+  }
+  return next == end ? std::optional(address) : std::nullopt;
+}
+
+bool is_ipv4_or_empty(std::string_view text) noexcept { return text.empty() || parse_ipv4(text); }
 
 bool is_interface_or_empty(std::string_view text) noexcept {
   return text.size() <= kMaxInterface && std::ranges::all_of(text, is_graphic) &&

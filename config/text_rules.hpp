@@ -3,6 +3,8 @@
 // What texts in the configuration have to look like.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace convexcut::config {
@@ -18,6 +20,10 @@ namespace convexcut::config {
 
 // A path, or nothing: no control characters, at most 4095 characters.
 [[nodiscard]] bool is_path_or_empty(std::string_view text) noexcept;
+
+// Dotted decimal, four numbers 0 … 255 without leading zeros: 192.168.1.201 is 0xC0A801C9.
+[[nodiscard]] std::optional<std::uint32_t> parse_ipv4(std::string_view text) noexcept;
+[[nodiscard]] bool is_ipv4_or_empty(std::string_view text) noexcept;
 
 // A network interface as Linux names them, or nothing: at most 15 characters, no slash, no spaces.
 [[nodiscard]] bool is_interface_or_empty(std::string_view text) noexcept;

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/time.hpp"
+#include "drivers/ipv4_address.hpp"
 
 namespace convexcut::capture {
 
@@ -27,16 +28,6 @@ enum class RecordKind : std::uint8_t {
   serial,
   can,  // the payload is the record as captured: 8 byte header with a big-endian id, then the data
   other,  // anything else on a network (ARP, TCP, …); no payload
-};
-
-struct Ipv4Address {
-  std::uint32_t value = 0;  // 192.168.1.201 is 0xC0A801C9
-
-  [[nodiscard]] static constexpr Ipv4Address from_octets(std::uint8_t a, std::uint8_t b,
-                                                         std::uint8_t c, std::uint8_t d) noexcept {
-    return {(std::uint32_t{a} << 24U) | (std::uint32_t{b} << 16U) | (std::uint32_t{c} << 8U) | d};
-  }
-  friend constexpr bool operator==(Ipv4Address, Ipv4Address) = default;
 };
 
 // The addresses and ports are those of a datagram; an IPv6 datagram has ports only.

@@ -43,7 +43,9 @@ std::optional<Value> another(const Key& key) {
   if (const auto* d = std::get_if<Choice>(&key.domain)) {
     for (const std::string_view name : d->names) candidates.emplace_back(std::string(name));
   }
-  if (std::holds_alternative<Text>(key.domain)) candidates = {std::string("other_value")};
+  if (std::holds_alternative<Text>(key.domain)) {
+    candidates = {std::string("other_value"), std::string("10.0.0.7")};
+  }
   for (const Value& candidate : candidates) {
     if (candidate != usual && accept(key.domain, candidate)) return candidate;
   }

@@ -41,6 +41,19 @@ TEST(TextRules, Paths) {
   EXPECT_FALSE(is_path_or_empty(std::string(4096, 'a')));
 }
 
+TEST(TextRules, Addresses) {
+  EXPECT_EQ(parse_ipv4("192.168.1.201"), 0xC0A801C9U);
+  EXPECT_EQ(parse_ipv4("0.0.0.0"), 0U);
+  EXPECT_EQ(parse_ipv4("255.255.255.255"), 0xFFFFFFFFU);
+  for (const char* bad : {"1.2.3", "1.2.3.4.5", "1.2.3.256", "1.2.3.-4", "1.2.3.4 ", " 1.2.3.4",
+                          "1..3.4", "01.2.3.4", "1.2.3.", ".1.2.3", "1.2.3.x", "::1"}) {
+    EXPECT_EQ(parse_ipv4(bad), std::nullopt) << bad;
+    EXPECT_FALSE(is_ipv4_or_empty(bad)) << bad;
+  }
+  EXPECT_EQ(parse_ipv4(""), std::nullopt);
+  EXPECT_TRUE(is_ipv4_or_empty(""));
+}
+
 TEST(TextRules, Interfaces) {
   for (const char* good : {"", "can0", "vcan0.1"}) EXPECT_TRUE(is_interface_or_empty(good)) << good;
   for (const char* bad : {"can 0", "a/b", "sixteen_letters_"}) {
