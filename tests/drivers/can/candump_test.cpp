@@ -241,6 +241,14 @@ TEST_F(CandumpReaderTest, LongLinesAreSkippedWholeAcrossBlocks) {
   EXPECT_EQ(reader.counters().lines.value(), 5U);
 }
 
+TEST_F(CandumpReaderTest, LongLineThatEndsWithABlockIsTooLong) {
+  std::string text = "(1.000000) can0 001#11";
+  text.resize(65536, ' ');
+  CandumpReader reader(write(text + "\n(1.0) can0 002#\n"));
+  EXPECT_THAT(ids(reader), testing::ElementsAre(2));
+  EXPECT_EQ(reader.counters().too_long_lines.value(), 1U);
+}
+
 TEST_F(CandumpReaderTest, ManyBlocksLoseNothingAtTheirBorders) {
   std::string text;
   for (unsigned i = 0; i < 20'000; ++i) {
