@@ -118,7 +118,7 @@ TEST(LidarDriver, EvidenceOfDroppedPacketsIsForgotten) {
   std::uint32_t micros = 0;
   for (int n = 0; n < 8; ++n) {  // two sensors' steps in turn contradict each other
     driver.on_datagram(packet.timestamp(micros).bytes(), kData, at(n));
-    micros += n % 2 == 0 ? 553 : 1327;
+    micros += n % 2 == 0 ? 553U : 1327U;
   }
   EXPECT_EQ(driver.counters().model_unknown.value(), 8U);
   for (int n = 8; n < 12; ++n) {
