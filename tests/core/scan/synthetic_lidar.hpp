@@ -85,7 +85,7 @@ class SyntheticLidar {
     }
     return timed;
   }
-  [[nodiscard]] std::int64_t packets_in(Duration span) const {
+  [[nodiscard]] static std::int64_t packets_in(Duration span) {
     return span.count() / (kFiringsPerPacket * kFiringPeriodNs);
   }
 };
