@@ -10,7 +10,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/replay/room.hpp"
+#include "tests/support/room.hpp"
 
 namespace convexcut::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "tests/replay/room.hpp"
+#include "tests/support/room.hpp"
 
 namespace convexcut::test {
 namespace {

@@ -2,9 +2,11 @@
 #include "tests/support/run_program.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <signal.h>
@@ -36,6 +38,22 @@ void apply(const ProgramLimits& limits) {
   if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
 }
 
+// Waits for the child; sends it SIGTERM once when `err` holds the awaited text.
+int wait_for(pid_t child, const std::filesystem::path& err, const std::string& terminate_at) {
+  int status = 0;
+  bool terminated = terminate_at.empty();
+  while (!terminated) {
+    if (::waitpid(child, &status, WNOHANG) == child) return status;
+    if (text_of(err).find(terminate_at) != std::string::npos) {
+      ::kill(child, SIGTERM);
+      terminated = true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+  if (::waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for a program");
+  return status;
+}
+
 }  // namespace
 
 std::size_t ProgramResult::error_lines() const {
@@ -63,8 +81,7 @@ ProgramResult run_program(const std::string& name, const std::vector<std::string
     ::execv(program.c_str(), argv.data());
     ::_exit(127);
   }
-  int status = 0;
-  if (::waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for " + name);
+  const int status = wait_for(child, err, limits.terminate_at);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out),
           text_of(err)};
 }
