@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "drivers/capture/capture_writer.hpp"
+#include "drivers/ipv4_address.hpp"
 #include "replay/atomic_file.hpp"
 
 namespace convexcut::sim {
@@ -25,8 +26,8 @@ constexpr double kJitterNs = 40e3;
 constexpr std::uint64_t kDataPerPosition = 9;
 constexpr Duration kPositionDelay = std::chrono::microseconds{250};
 
-constexpr capture::Ipv4Address kSensor = capture::Ipv4Address::from_octets(192, 168, 1, 201);
-constexpr capture::Ipv4Address kBroadcast = capture::Ipv4Address::from_octets(255, 255, 255, 255);
+constexpr Ipv4Address kSensor = Ipv4Address::from_octets(192, 168, 1, 201);
+constexpr Ipv4Address kBroadcast = Ipv4Address::from_octets(255, 255, 255, 255);
 
 // What draws random numbers; each its own stream.
 enum Stream : std::uint32_t {
