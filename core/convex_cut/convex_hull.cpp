@@ -8,14 +8,6 @@
 namespace convexcut {
 namespace {
 
-// By u, then z. Not SlicePoint's defaulted comparison, which has to consider NaN as well.
-constexpr auto kBefore = [](const SlicePoint& a, const SlicePoint& b) noexcept {
-  return a.u < b.u || (a.u == b.u && a.z < b.z);
-};
-constexpr auto kSamePlace = [](const SlicePoint& a, const SlicePoint& b) noexcept {
-  return a.u == b.u && a.z == b.z;
-};
-
 // Appends a point to the half hull that begins at `start`; turns that are not to the left go.
 void extend(std::span<SlicePoint> vertices, std::size_t start, std::size_t& size,
             SlicePoint next) noexcept {
@@ -29,8 +21,8 @@ void extend(std::span<SlicePoint> vertices, std::size_t start, std::size_t& size
 
 std::span<const SlicePoint> convex_hull(std::span<SlicePoint> points,
                                         std::span<SlicePoint> vertices) noexcept {
-  std::sort(points.begin(), points.end(), kBefore);
-  const auto unique_end = std::unique(points.begin(), points.end(), kSamePlace);
+  std::sort(points.begin(), points.end());
+  const auto unique_end = std::unique(points.begin(), points.end());
   const auto n = static_cast<std::size_t>(unique_end - points.begin());
   if (n < 3) {
     std::copy_n(points.begin(), n, vertices.begin());

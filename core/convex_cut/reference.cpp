@@ -71,7 +71,7 @@ std::vector<SlicePoint> project(const CloudView& cloud, const SlicingPlane& plan
 }
 
 std::vector<SlicePoint> hull(std::vector<SlicePoint> points) {
-  std::ranges::sort(points);
+  std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 2) return points;
   std::vector<SlicePoint> chain;

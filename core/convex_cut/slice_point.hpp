@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <compare>
 
 namespace convexcut {
 
@@ -12,7 +11,10 @@ namespace convexcut {
 struct SlicePoint {
   double u = 0.0;
   double z = 0.0;
-  friend constexpr auto operator<=>(const SlicePoint&, const SlicePoint&) = default;
+  friend constexpr bool operator==(const SlicePoint&, const SlicePoint&) = default;
+  friend constexpr bool operator<(const SlicePoint& a, const SlicePoint& b) noexcept {
+    return a.u < b.u || (a.u == b.u && a.z < b.z);
+  }
 };
 
 // Square of the distance from p to the segment a–b (a ≠ b), in m².

@@ -21,9 +21,8 @@ constexpr std::size_t kWorthCulling = 32;
 void set_flag(std::uint8_t& flag) noexcept {
   std::atomic_ref(flag).store(1, std::memory_order_relaxed);
 }
-[[nodiscard]] bool is_set(const std::uint8_t& flag) noexcept {
-  // C++20's atomic_ref takes no const object; a load does not change it.
-  return std::atomic_ref(const_cast<std::uint8_t&>(flag)).load(std::memory_order_relaxed) != 0;
+[[nodiscard]] bool is_set(std::uint8_t& flag) noexcept {  // C++20's atomic_ref takes no const
+  return std::atomic_ref(flag).load(std::memory_order_relaxed) != 0;
 }
 
 [[nodiscard]] SlicePoint exact_point(const CloudView& sorted, const SlicingPlane& plane,
@@ -90,7 +89,7 @@ SliceWorker::Hull SliceWorker::inscribed_polygon(const CloudView& sorted,
 // Leaves the members that this slice may still make structure, and returns how many candidates for
 // the hull it has written.
 std::size_t SliceWorker::select(const CloudView& sorted, const SlicingPlane& plane,
-                                std::span<const std::uint8_t> structure) noexcept {
+                                std::span<std::uint8_t> structure) noexcept {
   if (count_ < kWorthCulling) {
     for (std::size_t i = 0; i < count_; ++i) {
       candidates_[i] = exact_point(sorted, plane, position_[i]);
@@ -133,7 +132,7 @@ void SliceWorker::keep(const CloudView& sorted, const SlicingPlane& plane, Hull 
   }
   set_edges(hull);
   depth_within(edges(), hull.size(), members(), count_, depth_.data());
-  const float e = static_cast<float>(hull_distance_m_);
+  const auto e = static_cast<float>(hull_distance_m_);
   for (std::size_t i = 0; i < count_; ++i) {
     if (depth_[i] > e + tolerance_m_) continue;
     const std::uint32_t position = position_[i];

@@ -43,7 +43,7 @@ class SliceWorker {
            const ShellIndex::Windows& windows) noexcept;
   [[nodiscard]] Hull inscribed_polygon(const CloudView& sorted, const SlicingPlane& plane) noexcept;
   [[nodiscard]] std::size_t select(const CloudView& sorted, const SlicingPlane& plane,
-                                   std::span<const std::uint8_t> structure) noexcept;
+                                   std::span<std::uint8_t> structure) noexcept;
   void keep(const CloudView& sorted, const SlicingPlane& plane, Hull hull,
             std::span<std::uint8_t> structure) noexcept;
   void set_edges(Hull polygon) noexcept;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ostream>
 #include <random>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,11 @@ struct Cloud {
     x.push_back(static_cast<float>(px));
     y.push_back(static_cast<float>(py));
     z.push_back(static_cast<float>(pz));
+  }
+  void add_from(const Cloud& other, std::size_t k) {
+    x.push_back(other.x[k]);
+    y.push_back(other.y[k]);
+    z.push_back(other.z[k]);
   }
   [[nodiscard]] std::size_t size() const { return x.size(); }
   [[nodiscard]] CloudView view() const { return {x, y, z}; }
@@ -47,6 +53,11 @@ class Random {
 struct Distribution {
   std::string_view name;
   Cloud (*make)(Random& random);
+
+  // How GoogleTest names it.
+  friend void PrintTo(const Distribution& distribution, std::ostream* out) {
+    *out << distribution.name;
+  }
 };
 
 // From plain to pathological; each with up to a few thousand points.

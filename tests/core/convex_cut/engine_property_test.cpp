@@ -55,7 +55,7 @@ TEST(ConvexCut, KeptPointsHaveTheHullOfAllPointsInEverySlice) {
   const std::vector<Label> labels = labels_of(cloud);
   test::Cloud kept;
   for (std::size_t k = 0; k < cloud.size(); ++k) {
-    if (labels[k] == Label::structure) kept.add(cloud.x[k], cloud.y[k], cloud.z[k]);
+    if (labels[k] == Label::structure) kept.add_from(cloud, k);
   }
   ASSERT_LT(kept.size(), cloud.size());
   for (std::uint32_t i = 0; i < kParameters.planes; ++i) {
@@ -75,7 +75,7 @@ TEST(ConvexCut, ReorderingThePointsReordersTheLabels) {
   test::Random random(4);
   for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[random.index(k)]);
   test::Cloud shuffled;
-  for (const std::size_t k : order) shuffled.add(cloud.x[k], cloud.y[k], cloud.z[k]);
+  for (const std::size_t k : order) shuffled.add_from(cloud, k);
   const std::vector<Label> labels = labels_of(cloud);
   const std::vector<Label> shuffled_labels = labels_of(shuffled);
   for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ(shuffled_labels[k], labels[order[k]]);

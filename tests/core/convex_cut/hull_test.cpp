@@ -28,7 +28,7 @@ namespace {
                            const std::vector<SlicePoint>& points) {
   return a != b && std::ranges::all_of(points, [&](const SlicePoint& c) {
            const std::int64_t turn = cross(a, b, c);
-           const bool within = std::min(a, b) <= c && c <= std::max(a, b);
+           const bool within = !(c < std::min(a, b)) && !(std::max(a, b) < c);
            return turn > 0 || (turn == 0 && within);
          });
 }
@@ -43,7 +43,7 @@ namespace {
     }
   }
   if (vertices.empty() && !points.empty()) vertices.push_back(points.front());  // all are equal
-  std::ranges::sort(vertices);
+  std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
@@ -65,7 +65,7 @@ TEST(ReferenceHull, HasTheVerticesThatTheDefinitionGives) {
     const std::vector<SlicePoint> points =
         random_points(random, random.index(65), kSides[random.index(std::size(kSides))]);
     std::vector<SlicePoint> found = reference::hull(points);
-    std::ranges::sort(found);
+    std::sort(found.begin(), found.end());
     ASSERT_EQ(found, vertices_by_definition(points)) << i;
   }
 }
@@ -75,7 +75,7 @@ TEST(ReferenceHull, GoesRoundCounterClockwiseFromTheLeastPoint) {
   for (int i = 0; i < 50; ++i) {
     const std::vector<SlicePoint> points = random_points(random, 40, 100);
     const std::vector<SlicePoint> hull = reference::hull(points);
-    ASSERT_EQ(hull.front(), std::ranges::min(points));
+    ASSERT_EQ(hull.front(), *std::min_element(points.begin(), points.end()));
     for (std::size_t k = 0; k < hull.size(); ++k) {
       ASSERT_TRUE(is_edge(hull[k], hull[(k + 1) % hull.size()], points));
     }
