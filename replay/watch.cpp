@@ -74,20 +74,18 @@ class StopSignal {
   FileDescriptor fd_;
 };
 
-// A reader that writes to an eventfd when data has come.
+// A reader that writes to an eventfd, which outlives it, when data has come.
 class Subscription {
  public:
   Subscription(const daemon::Participant& participant, const daemon::Ros2Type& type,
-               std::string_view ros_name, std::int32_t depth, const FileDescriptor& data_came)
+               std::string_view ros_name, std::int32_t depth, FileDescriptor& data_came)
       : name_(daemon::dds_topic_name(ros_name)),
         topic_(daemon::require(dds_create_topic(participant.handle(), type.descriptor,
                                                 name_.c_str(), nullptr, nullptr),
                                name_)) {
-    // The listener's argument is a pointer: a file descriptor fits into one, and cannot dangle.
-    dds_listener_t* listener =
-        dds_create_listener(reinterpret_cast<void*>(static_cast<std::intptr_t>(data_came.get())));
+    dds_listener_t* listener = dds_create_listener(&data_came);
     dds_lset_data_available(listener, [](dds_entity_t, void* argument) {
-      ::eventfd_write(static_cast<int>(reinterpret_cast<std::intptr_t>(argument)), 1);
+      ::eventfd_write(static_cast<const FileDescriptor*>(argument)->get(), 1);
     });
     const dds_entity_t reader = dds_create_reader(participant.handle(), topic_.get(),
                                                   daemon::reader_qos(depth, type).get(), listener);
@@ -194,8 +192,9 @@ class Watch {
   }
 
   void print(const std::string& text) {
-    std::fputs(text.c_str(), out_);
-    std::fflush(out_);
+    if (std::fputs(text.c_str(), out_) < 0 || std::fflush(out_) != 0) {
+      throw std::system_error(errno, std::generic_category(), "cannot write the output");
+    }
   }
 
   // Once each time that the publishers are gone.
@@ -211,7 +210,7 @@ class Watch {
       const std::string found = topic->incompatibility();
       if (!found.empty()) message += "; " + found;
     }
-    std::fprintf(stderr, "%s\n", message.c_str());
+    static_cast<void>(std::fprintf(stderr, "%s\n", message.c_str()));
   }
 
   WatchOptions options_;

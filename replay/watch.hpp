@@ -19,7 +19,8 @@ struct WatchOptions {
 
 // Listens to a daemon's topics like any DDS program and prints one line a second to out: what
 // arrives, and what the daemon says of it. Gives 0 when data came, 1 when none did. Throws
-// daemon::DdsError when it cannot take part in the domain.
+// daemon::DdsError when it cannot take part in the domain, std::system_error when out cannot be
+// written.
 int watch(const WatchOptions& options, std::FILE* out);
 
 }  // namespace convexcut::replay

@@ -51,7 +51,7 @@ std::shared_ptr<Domain> Domain::open(std::uint32_t number, const std::string& pr
     }
     return domain;
   }
-  const std::shared_ptr<Domain> domain(new Domain(number, profile_path));
+  std::shared_ptr<Domain> domain(new Domain(number, profile_path));
   open_domains[number] = domain;
   return domain;
 }

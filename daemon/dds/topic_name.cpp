@@ -23,7 +23,7 @@ bool is_token(std::string_view token) {
 std::string dds_topic_name(std::string_view ros_name) {
   std::string_view rest = ros_name;
   if (rest.starts_with('/')) rest.remove_prefix(1);
-  const std::string name = "rt/" + std::string(rest);
+  std::string name = "rt/" + std::string(rest);
   while (true) {
     const std::size_t slash = rest.find('/');
     if (!is_token(rest.substr(0, slash))) {

@@ -23,11 +23,11 @@ class RateLimit {
 
   // When the event is to be logged: how many were not since the last that was. Else nothing.
   [[nodiscard]] std::optional<std::uint64_t> pass(Clock::time_point now) noexcept {
-    if (last_ && now - *last_ < period_) {
+    if (now < next_) {
       ++suppressed_;
       return std::nullopt;
     }
-    last_ = now;
+    next_ = now + period_;
     const std::uint64_t suppressed = suppressed_;
     suppressed_ = 0;
     return suppressed;
@@ -35,7 +35,7 @@ class RateLimit {
 
  private:
   Duration period_;
-  std::optional<Clock::time_point> last_;
+  Clock::time_point next_ = Clock::time_point::min();  // the first to pass
   std::uint64_t suppressed_ = 0;
 };
 
