@@ -104,6 +104,7 @@ TEST_P(DecoderOracle, RandomPacketsComeOutAsTheFormulasSay) {
   const auto [id, dual] = GetParam();
   const Model& model = model_of(id);
   const DataDecoder decoder(model, {.vertical_offsets = true});
+  // The same packets in every run. NOLINTNEXTLINE(cert-msc32-c,cert-msc51-cpp)
   std::mt19937 random(20240117);
   for (int repetition = 0; repetition < 50; ++repetition) {
     const Case made = random_case(model, dual, random);

@@ -3,9 +3,7 @@
 // Does not prove: that every receiver's dialect is understood; only RMC and GGA are read.
 #include "drivers/velodyne/nmea.hpp"
 
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -19,12 +17,15 @@ using namespace std::string_view_literals;
 
 // "$" body "*" checksum CR LF.
 std::string sentence(std::string_view body) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
   unsigned sum = 0;
   for (const char c : body) sum ^= static_cast<unsigned char>(c);
-  std::array<char, 8> tail{};
-  std::snprintf(tail.data(), tail.size(), "*%02X\r\n", sum);
   std::string text = "$";
-  text.append(body).append(tail.data());
+  text.append(body);
+  text += '*';
+  text += kDigits[sum / 16];
+  text += kDigits[sum % 16];
+  text += "\r\n";
   return text;
 }
 
