@@ -6,6 +6,9 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/convex_cut/convex_hull.hpp"
+#include "core/convex_cut/orientation.hpp"
+
 namespace convexcut {
 namespace {
 
@@ -83,7 +86,23 @@ SliceWorker::Hull SliceWorker::inscribed_polygon(const CloudView& sorted,
   for (std::size_t k = 0; k < kExtremes; ++k) {
     candidates_[k] = exact_point(sorted, plane, position_[outer[k]]);
   }
-  return convex_hull(std::span(candidates_).first(kExtremes), vertices_);
+  const Hull polygon = convex_hull(std::span(candidates_).first(kExtremes), vertices_);
+  return polygon.size() >= 3 ? polygon : any_triangle(sorted, plane);
+}
+
+// For a slice whose outermost members are collinear: a triangle of members, or fewer vertices when
+// all of them are collinear. Without it, a slice along the axis would sort all of its points.
+SliceWorker::Hull SliceWorker::any_triangle(const CloudView& sorted,
+                                            const SlicingPlane& plane) noexcept {
+  std::array<SlicePoint, 3> corners{exact_point(sorted, plane, position_[0])};
+  std::size_t found = 1;
+  for (std::size_t i = 1; i < count_ && found < corners.size(); ++i) {
+    const SlicePoint point = exact_point(sorted, plane, position_[i]);
+    const bool extends =
+        found == 1 ? point != corners[0] : orientation(corners[0], corners[1], point) != 0;
+    if (extends) corners[found++] = point;
+  }
+  return convex_hull(std::span(corners).first(found), vertices_);
 }
 
 // Leaves the members that this slice may still make structure, and returns how many candidates for
@@ -97,12 +116,9 @@ std::size_t SliceWorker::select(const CloudView& sorted, const SlicingPlane& pla
     return count_;
   }
   const Hull polygon = inscribed_polygon(sorted, plane);
-  if (polygon.size() < 3) {
-    std::fill_n(depth_.begin(), count_, -1.0F);  // everything is outside of nothing
-  } else {
-    set_edges(polygon);
-    depth_within(edges(), polygon.size(), members(), count_, depth_.data());
-  }
+  if (polygon.size() < 3) return 0;  // no candidates, a degenerate hull: all members are kept
+  set_edges(polygon);
+  depth_within(edges(), polygon.size(), members(), count_, depth_.data());
   const float reach_m = static_cast<float>(hull_distance_m_) + tolerance_m_;
   std::size_t undecided = 0;
   std::size_t candidates = 0;

@@ -42,6 +42,7 @@ class SliceWorker {
   void cut(const ShellIndex& index, const SlicingPlane& plane,
            const ShellIndex::Windows& windows) noexcept;
   [[nodiscard]] Hull inscribed_polygon(const CloudView& sorted, const SlicingPlane& plane) noexcept;
+  [[nodiscard]] Hull any_triangle(const CloudView& sorted, const SlicingPlane& plane) noexcept;
   [[nodiscard]] std::size_t select(const CloudView& sorted, const SlicingPlane& plane,
                                    std::span<std::uint8_t> structure) noexcept;
   void keep(const CloudView& sorted, const SlicingPlane& plane, Hull hull,

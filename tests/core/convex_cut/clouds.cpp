@@ -80,6 +80,19 @@ Cloud on_the_axis(Random& random) {
   return cloud;
 }
 
+Cloud on_the_axis_but_one(Random& random) {  // by less than an extreme is resolved to
+  Cloud cloud = on_the_axis(random);
+  for (std::size_t i = 0; i < 2; ++i) cloud.x[random.index(cloud.size())] = 1e-5F;
+  return cloud;
+}
+
+Cloud in_one_place(Random& random) {
+  Cloud cloud;
+  const double x = random.uniform(-0.1, 0.1);
+  for (int i = 0; i < 100; ++i) cloud.add(x, 0.01, 1.5);
+  return cloud;
+}
+
 Cloud near_the_axis(Random& random) {  // within the half width of every plane, or just outside
   Cloud cloud;
   for (int i = 0; i < 600; ++i) {
@@ -191,6 +204,8 @@ const std::vector<Distribution>& distributions() {
       {"few_places", few_places},
       {"two_directions", two_directions},
       {"on_the_axis", on_the_axis},
+      {"on_the_axis_but_one", on_the_axis_but_one},
+      {"in_one_place", in_one_place},
       {"near_the_axis", near_the_axis},
       {"lattice", lattice},
       {"far_clusters", far_clusters},
