@@ -10,21 +10,10 @@
 
 namespace convexcut::daemon {
 
-// The RTPS port rule (DDSI-RTPS 2.3, 9.6.1.1): base + 250·domain holds a domain's multicast ports
-// and, from +10 on, two ports a participant.
-inline constexpr std::uint32_t kDomainPortBase = 7400;
-inline constexpr std::uint32_t kPortsPerDomain = 250;
-inline constexpr std::uint32_t kMaxDomain = 232;  // above it the ports do not fit in 16 bits
-
-// Whether a domain can use this UDP port on this host: then nothing else should (a sensor's data
-// port is the case to check).
-[[nodiscard]] constexpr bool domain_uses_port(std::uint32_t domain, std::uint32_t port) noexcept {
-  const std::uint32_t first = kDomainPortBase + kPortsPerDomain * domain;
-  const std::uint32_t last = first + 11 + 2 * kMaxParticipantIndex;
-  return port >= first && port <= last;
-}
-static_assert(kDomainPortBase + kPortsPerDomain * kMaxDomain + 11 + 2 * kMaxParticipantIndex <=
-              65535);
+// Above it the ports do not fit in 16 bits (DDSI-RTPS 2.3, 9.6.1.1): a domain's ports start at 7400
+// + 250·domain, with two a participant from the eleventh on.
+inline constexpr std::uint32_t kMaxDomain = 232;
+static_assert(7400 + 250 * kMaxDomain + 11 + 2 * kMaxParticipantIndex <= 65535);
 
 // A DDS domain in this process, with our settings. Participants of one domain share it: DDS has one
 // set of settings a domain and process.

@@ -77,7 +77,7 @@ std::map<std::string, Announced> announced_writers(const Participant& participan
 
 class DiscoveryTest : public ::testing::Test {
  protected:
-  std::map<std::string, Announced> publish(const config::Dds& settings) {
+  static std::map<std::string, Announced> publish(const config::Dds& settings) {
     const Participant participant(settings);
     const ScanPublisher scans(participant, settings);
     const ImuPublisher imu(participant, settings);

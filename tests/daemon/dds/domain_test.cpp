@@ -36,8 +36,7 @@ std::string error_of(const config::Dds& settings) {
 
 class ProfileTest : public ::testing::Test {
  protected:
-  ProfileTest() = default;
-  ~ProfileTest() override { std::filesystem::remove(path_); }
+  void TearDown() override { std::filesystem::remove(path_); }
 
   config::Dds with_profile(std::string_view text) {
     std::ofstream(path_) << text;
@@ -116,21 +115,6 @@ TEST_F(ProfileTest, WithAnUnknownInterfaceIsRefused) {
 TEST_F(ProfileTest, ThatFailedLeavesTheDomainFreeForAnother) {
   EXPECT_NE(error_of(with_profile("<CycloneDDS><Nonsense/></CycloneDDS>")), "");
   EXPECT_EQ(error_of(test_settings()), "");
-}
-
-TEST(DomainPorts, NeverHoldTheLidarsDefaultPorts) {
-  for (std::uint32_t domain = 0; domain <= kMaxDomain; ++domain) {
-    EXPECT_FALSE(domain_uses_port(domain, 2368)) << domain;
-    EXPECT_FALSE(domain_uses_port(domain, 8308)) << domain;
-  }
-}
-
-TEST(DomainPorts, AreTheRtpsRanges) {
-  EXPECT_FALSE(domain_uses_port(0, 7399));
-  EXPECT_TRUE(domain_uses_port(0, 7400));
-  EXPECT_TRUE(domain_uses_port(0, 7475));
-  EXPECT_FALSE(domain_uses_port(0, 7476));
-  EXPECT_TRUE(domain_uses_port(3, 8150));
 }
 
 }  // namespace

@@ -3,13 +3,11 @@
 // Does not prove that the numbers are right at the source: they are the daemon's.
 #include "replay/watch_report.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace convexcut::replay {
 namespace {
 
-using ::testing::HasSubstr;
 using Status = convexcut_msg_dds__ScanStatus_;
 
 constexpr Duration kSecond = std::chrono::seconds{1};

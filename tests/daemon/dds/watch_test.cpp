@@ -85,13 +85,13 @@ struct Daemon {
 // and in those of DDS, so that only watch takes it.
 class WatchTest : public ::testing::Test {
  protected:
-  WatchTest() {
+  void SetUp() override {
     sigset_t interrupt;
     ::sigemptyset(&interrupt);
     ::sigaddset(&interrupt, SIGINT);
     ::pthread_sigmask(SIG_BLOCK, &interrupt, &before_);
   }
-  ~WatchTest() override { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  void TearDown() override { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
   // The exit status of a watch over one published scan.
   int watch_a_scan(const WatchOptions& options) {

@@ -73,6 +73,7 @@ TEST(Log, DropsLinesAboveTheLevel) {
 TEST(Log, LinesOfSeveralThreadsStayWhole) {
   StderrRecords stderr_records;
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([] {
       for (int i = 0; i < 20; ++i) info("tick", {{"text", "one two three"}});

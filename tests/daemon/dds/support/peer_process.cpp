@@ -59,7 +59,7 @@ std::string PeerProcess::read_line() {
   while (true) {
     const std::size_t end = pending_.find('\n');
     if (end != std::string::npos) {
-      const std::string line = pending_.substr(0, end);
+      std::string line = pending_.substr(0, end);
       pending_.erase(0, end + 1);
       return line;
     }
