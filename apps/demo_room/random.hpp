@@ -12,11 +12,7 @@ class Random {
  public:
   // Different streams of one seed are independent: a change in what one part of a simulation draws
   // does not change the others.
-  Random(std::uint64_t seed, std::uint32_t stream) {
-    std::seed_seq sequence{static_cast<std::uint32_t>(seed),
-                           static_cast<std::uint32_t>(seed >> 32U), stream};
-    generator_.seed(sequence);
-  }
+  Random(std::uint64_t seed, std::uint32_t stream) : generator_(seeded(seed, stream)) {}
 
   // 0 ≤ u < 1.
   [[nodiscard]] double uniform() { return static_cast<double>(generator_() >> 11U) * 0x1p-53; }
@@ -36,6 +32,12 @@ class Random {
   }
 
  private:
+  static std::mt19937_64 seeded(std::uint64_t seed, std::uint32_t stream) {
+    std::seed_seq sequence{static_cast<std::uint32_t>(seed),
+                           static_cast<std::uint32_t>(seed >> 32U), stream};
+    return std::mt19937_64(sequence);
+  }
+
   std::mt19937_64 generator_;
 };
 

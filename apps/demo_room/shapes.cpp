@@ -15,8 +15,8 @@ Vec3 turned(const Vec3& v, double cos_yaw, double sin_yaw) noexcept {
 
 }  // namespace
 
-Box::Box(const Vec3& centre, const Vec3& size, Degrees yaw, Surface surface) noexcept
-    : centre_(centre),
+Box::Box(Vec3 centre, const Vec3& size, Degrees yaw, Surface surface) noexcept
+    : centre_(std::move(centre)),
       half_size_(size / 2.0),
       cos_yaw_(std::cos(yaw.to_radians().value)),
       sin_yaw_(std::sin(yaw.to_radians().value)),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "core/angle.hpp"
 #include "core/geometry.hpp"
@@ -35,7 +36,7 @@ struct Hit {
 // An upright box, turned about z.
 class Box {
  public:
-  Box(const Vec3& centre, const Vec3& size, Degrees yaw, Surface surface) noexcept;
+  Box(Vec3 centre, const Vec3& size, Degrees yaw, Surface surface) noexcept;
   void meet(const Ray& ray, Hit& nearest) const noexcept;
   void shift(const Vec3& by) noexcept { centre_ += by; }
   [[nodiscard]] Vec3 middle() const noexcept { return centre_; }
@@ -54,8 +55,8 @@ class Box {
 class Cylinder {
  public:
   // `foot` is the middle of the lower end.
-  Cylinder(const Vec3& foot, double radius, double height, Surface surface) noexcept
-      : foot_(foot), radius_(radius), height_(height), surface_(surface) {}
+  Cylinder(Vec3 foot, double radius, double height, Surface surface) noexcept
+      : foot_(std::move(foot)), radius_(radius), height_(height), surface_(surface) {}
   void meet(const Ray& ray, Hit& nearest) const noexcept;
   void shift(const Vec3& by) noexcept { foot_ += by; }
   [[nodiscard]] Vec3 middle() const noexcept { return foot_ + Vec3(0.0, 0.0, height_ / 2.0); }
@@ -71,7 +72,7 @@ class Cylinder {
 // The shell of a room, seen from inside: four walls, floor and ceiling along the axes.
 class RoomShell {
  public:
-  RoomShell(const Vec3& low, const Vec3& high) noexcept : low_(low), high_(high) {}
+  RoomShell(Vec3 low, Vec3 high) noexcept : low_(std::move(low)), high_(std::move(high)) {}
   // The ray starts inside: it always meets a side.
   [[nodiscard]] Hit meet(const Ray& ray) const noexcept;
   [[nodiscard]] bool contains(const Vec3& p) const noexcept {

@@ -14,6 +14,8 @@ namespace convexcut::bench {
 // queues can be compared within one run.
 class RatioReporter : public benchmark::ConsoleReporter {
  public:
+  // Without colours: the output is read by scripts.
+  RatioReporter() : ConsoleReporter(OO_Tabular) {}
   void ReportRuns(const std::vector<Run>& runs) override;
 
   // Median rate of `ours` over median rate of `peer`, by benchmark name; 0 when one did not run.

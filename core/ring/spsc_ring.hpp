@@ -127,8 +127,9 @@ class SpscRing {
     std::size_t written_seen = 0;
   };
   static_assert(std::atomic<std::size_t>::is_always_lock_free);
-  static_assert(sizeof(ProducerLine) == kCacheLine && alignof(ProducerLine) == kCacheLine);
-  static_assert(sizeof(ConsumerLine) == kCacheLine && alignof(ConsumerLine) == kCacheLine);
+  static_assert(alignof(ProducerLine) == kCacheLine && alignof(ConsumerLine) == kCacheLine);
+  static_assert(sizeof(ProducerLine) == kCacheLine, "all of the producer's state is on one line");
+  static_assert(sizeof(ConsumerLine) == kCacheLine, "all of the consumer's state is on one line");
 
   static std::size_t round_up(std::size_t capacity) {
     constexpr std::size_t kLargest = std::bit_floor(std::numeric_limits<std::size_t>::max());
