@@ -43,7 +43,6 @@ struct Mount {
 };
 
 struct Imu {
-  std::string device;       // serial device of a live IMU; empty: none
   Degrees mount_roll{0.0};  // imu ← lidar
   Degrees mount_pitch{0.0};
   Degrees mount_yaw{0.0};
@@ -52,7 +51,6 @@ struct Imu {
 };
 
 struct Can {
-  std::string interface;  // SocketCAN interface of a live IMU; empty: none
   std::uint32_t bitrate = 250000;
   std::uint32_t sample_time_id = 0x005;
   std::uint32_t group_counter_id = 0x006;

@@ -14,8 +14,6 @@ constexpr Text kTopic{"a ROS topic name without leading slash (letters, digits, 
 constexpr Text kFrame{"a frame name without spaces and leading slash", is_frame_name};
 constexpr Text kPath{"a path, or nothing", is_path_or_empty};
 constexpr Text kAddress{"an IPv4 address like 192.168.1.201, or nothing", is_ipv4_or_empty};
-constexpr Text kInterface{"the name of a network interface (at most 15 characters), or nothing",
-                          is_interface_or_empty};
 
 constexpr Number kTurn{-360.0, 360.0};
 constexpr Integer kPort{1, 65535};
@@ -74,8 +72,6 @@ constexpr std::array kKeys{
     bind_key<&Config::mount, &Mount::yaw>("mount.yaw_deg", kTurn, "°",
                                           "Fixed mount: level from lidar, about z."),
 
-    bind_key<&Config::imu, &Imu::device>("imu.device", kPath, "",
-                                         "Serial device of the live IMU; empty: none."),
     bind_key<&Config::imu, &Imu::mount_roll>("imu.mount_roll_deg", kTurn, "°",
                                              "The IMU on the lidar: imu from lidar, about x."),
     bind_key<&Config::imu, &Imu::mount_pitch>("imu.mount_pitch_deg", kTurn, "°",
@@ -89,11 +85,8 @@ constexpr std::array kKeys{
         "imu.baud", Integer{0, 4'000'000}, "bit/s",
         "Rate of the serial line, which gives the time its bytes take; 0: no line (USB)."),
 
-    bind_key<&Config::can, &Can::interface>("can.interface", kInterface, "",
-                                            "CAN interface of the live IMU; empty: none."),
-    bind_key<&Config::can, &Can::bitrate>(
-        "can.bitrate", Integer{5'000, 1'000'000}, "bit/s",
-        "Rate of the bus, which gives the time a frame takes; the interface is not set by it."),
+    bind_key<&Config::can, &Can::bitrate>("can.bitrate", Integer{5'000, 1'000'000}, "bit/s",
+                                          "Rate of the bus, which gives the time a frame takes."),
     bind_key<&Config::can, &Can::sample_time_id>("can.sample_time_id", kCanId, "",
                                                  "Identifier of SampleTime."),
     bind_key<&Config::can, &Can::group_counter_id>("can.group_counter_id", kCanId, "",

@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t kMaxTopicName = 246;
 constexpr std::size_t kMaxFrameName = 255;
 constexpr std::size_t kMaxPath = 4095;
-constexpr std::size_t kMaxInterface = 15;  // IFNAMSIZ less the terminator
 
 bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
@@ -68,10 +67,5 @@ std::optional<std::uint32_t> parse_ipv4(std::string_view text) noexcept {
 }
 
 bool is_ipv4_or_empty(std::string_view text) noexcept { return text.empty() || parse_ipv4(text); }
-
-bool is_interface_or_empty(std::string_view text) noexcept {
-  return text.size() <= kMaxInterface && std::ranges::all_of(text, is_graphic) &&
-         text.find('/') == std::string_view::npos;
-}
 
 }  // namespace convexcut::config

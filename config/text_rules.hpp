@@ -25,7 +25,4 @@ namespace convexcut::config {
 [[nodiscard]] std::optional<std::uint32_t> parse_ipv4(std::string_view text) noexcept;
 [[nodiscard]] bool is_ipv4_or_empty(std::string_view text) noexcept;
 
-// A network interface as Linux names them, or nothing: at most 15 characters, no slash, no spaces.
-[[nodiscard]] bool is_interface_or_empty(std::string_view text) noexcept;
-
 }  // namespace convexcut::config

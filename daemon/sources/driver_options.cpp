@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From the configuration's words to the drivers' options.
+#include "config/text_rules.hpp"
 #include "daemon/sources/recordings.hpp"
 
 namespace convexcut::daemon {
@@ -30,6 +31,9 @@ velodyne::LidarDriverOptions lidar_driver_options(const config::Lidar& lidar) {
   options.data_port = lidar.data_port;
   options.position_port = lidar.position_port;
   options.vertical_offsets = lidar.vertical_offsets;
+  if (const auto address = config::parse_ipv4(lidar.source_address)) {
+    options.from = Ipv4Address{*address};
+  }
   options.time_offset = std::chrono::microseconds{lidar.time_offset_us};
   return options;
 }

@@ -11,18 +11,18 @@ std::unique_ptr<capture::CaptureReader> open_capture(const std::filesystem::path
   if (!is_capture(file)) return nullptr;
   auto reader = std::make_unique<capture::CaptureReader>(file);
   if (reader->link() != capture::LinkKind::can) {
-    throw capture::CaptureError(
-        file.string() +
-        ": expected a candump -L log or a capture of link type CAN_SOCKETCAN (227), found a capture of "
-        "another kind");
+    throw capture::CaptureError(file.string() +
+                                ": expected a candump -L log or a capture of link type "
+                                "CAN_SOCKETCAN (227), found a capture of "
+                                "another kind");
   }
   return reader;
 }
 
 }  // namespace
 
-CanRecording::CanRecording(const std::filesystem::path& file,
-                           const can::CanImuOptions& options, Sink<ImuSample>& sink)
+CanRecording::CanRecording(const std::filesystem::path& file, const can::CanImuOptions& options,
+                           Sink<ImuSample>& sink)
     : capture_(open_capture(file)),
       log_(capture_ ? nullptr : std::make_unique<can::CandumpReader>(file)),
       tap_(sink),

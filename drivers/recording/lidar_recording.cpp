@@ -23,7 +23,8 @@ std::optional<HostTime> LidarRecording::next_stamp() {
 }
 
 void LidarRecording::deliver() {
-  driver_.on_datagram(record_.payload, record_.destination_port, record_.stamp);
+  driver_.on_datagram(record_.payload, record_.destination_port, record_.stamp,
+                      record_.source.value_or(Ipv4Address{}));
   have_record_ = false;
 }
 

@@ -13,6 +13,7 @@
 #include "core/return_batch.hpp"
 #include "core/sink.hpp"
 #include "core/time.hpp"
+#include "drivers/ipv4_address.hpp"
 #include "drivers/velodyne/decoder.hpp"
 #include "drivers/velodyne/model.hpp"
 #include "drivers/velodyne/model_detector.hpp"
@@ -21,12 +22,6 @@
 #include "drivers/wire.hpp"
 
 namespace convexcut::velodyne {
-
-// In host byte order; 0 = not known.
-struct Ipv4Address {
-  std::uint32_t value = 0;
-  friend constexpr bool operator==(Ipv4Address, Ipv4Address) = default;
-};
 
 struct LidarDriverOptions {
   std::optional<ModelId> model = std::nullopt;  // nothing: told from the first packets

@@ -54,12 +54,5 @@ TEST(TextRules, Addresses) {
   EXPECT_TRUE(is_ipv4_or_empty(""));
 }
 
-TEST(TextRules, Interfaces) {
-  for (const char* good : {"", "can0", "vcan0.1"}) EXPECT_TRUE(is_interface_or_empty(good)) << good;
-  for (const char* bad : {"can 0", "a/b", "sixteen_letters_"}) {
-    EXPECT_FALSE(is_interface_or_empty(bad)) << bad;
-  }
-}
-
 }  // namespace
 }  // namespace convexcut::config
