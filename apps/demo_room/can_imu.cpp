@@ -85,17 +85,17 @@ void send_scaled(Bus& bus, std::uint32_t id, double unit, const Vec3& truth, dou
 }  // namespace
 
 std::string candump_log(const CanImuOptions& options, const RigMotion& motion, HostTime start,
-                        Duration length, Random& random) {
+                        const Period& period, Random& random) {
   Bus bus(options.bitrate, random);
-  const Duration period = Duration{std::chrono::seconds{1}} / options.rate_hz;
-  for (std::int64_t i = 0; period * i < length; ++i) {
-    const Duration sampled = options.clock.true_time(period * i);
+  const Duration step = Duration{std::chrono::seconds{1}} / options.rate_hz;
+  for (std::int64_t i = 0; step * i < period.length; ++i) {
+    const Duration sampled = period.from + options.clock.true_time(step * i);
     const RigState rig = motion.state(sampled);
     bus.wait_until(start + sampled + kProcessing);
 
     std::array<std::byte, 4> time{};
     wire::store_be<std::uint32_t>(
-        time, 0, static_cast<std::uint32_t>(kFirstMicros + (period * i).count() / 1000));
+        time, 0, static_cast<std::uint32_t>(kFirstMicros + (step * i).count() / 1000));
     bus.send(kSampleTimeId, time);
     std::array<std::byte, 2> count{};
     wire::store_be<std::uint16_t>(count, 0, static_cast<std::uint16_t>(kFirstCount + i));

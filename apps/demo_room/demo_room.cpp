@@ -5,20 +5,20 @@
 namespace convexcut::sim {
 namespace {
 
-const Vec3 kSize(9.0, 7.0, 2.7);
+Vec3 room_size() { return {9.0, 7.0, 2.7}; }
 // Where the lidar stands, from the room's corner: off the middle, so that no two walls are alike.
-const Vec3 kLidar(3.6, 2.9, 1.2);
+Vec3 lidar_place() { return {3.6, 2.9, 1.2}; }
 
 // A point of the floor, given from the room's corner.
-Vec3 on_floor(double x, double y) { return Vec3(x, y, 0.0) - kLidar; }
+Vec3 on_floor(double x, double y) { return Vec3(x, y, 0.0) - lidar_place(); }
 
 }  // namespace
 
 Scene demo_room(Furnishing furnishing) {
-  Scene scene(RoomShell(-kLidar, kSize - kLidar));
+  Scene scene(RoomShell(-lidar_place(), room_size() - lidar_place()));
   if (furnishing == Furnishing::empty) return scene;
 
-  scene.add(make_pillar({on_floor(5.6, 4.9)}, kSize.z()));
+  scene.add(make_pillar({on_floor(5.6, 4.9)}, room_size().z()));
 
   scene.add(make_desk({on_floor(6.6, 0.5), Degrees{180}}));
   scene.add(make_desk({on_floor(7.7, 6.4)}));

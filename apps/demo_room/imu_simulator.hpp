@@ -15,6 +15,13 @@
 
 namespace convexcut::sim {
 
+// When samples are taken: from then on, for so long. `from` counts from the start of the simulation
+// and may lie before it.
+struct Period {
+  Duration from{};
+  Duration length{};
+};
+
 struct ImuNoise {  // standard deviations; the orientation is the truth
   double rate_of_turn_rad_s = 0.003;
   double acceleration_m_s2 = 0.02;
@@ -34,9 +41,9 @@ inline constexpr std::size_t kSerialFrameSize = 73;
   return std::int64_t{baud} / static_cast<std::int64_t>(kSerialFrameSize * 10);
 }
 
-// Sends the samples of `length`, beginning at `start`.
+// `start` is the host's time at the start of the simulation.
 void send_samples(const SerialImuOptions& options, const RigMotion& motion, HostTime start,
-                  Duration length, Random& random, SerialLine& line);
+                  const Period& period, Random& random, SerialLine& line);
 
 struct CanImuOptions {
   std::int64_t rate_hz = 100;
@@ -48,6 +55,6 @@ struct CanImuOptions {
 // The frames of the same motion as lines of `candump -L`: SampleTime, GroupCounter, Quaternion,
 // RateOfTurn and Acceleration, with the default identifiers.
 [[nodiscard]] std::string candump_log(const CanImuOptions& options, const RigMotion& motion,
-                                      HostTime start, Duration length, Random& random);
+                                      HostTime start, const Period& period, Random& random);
 
 }  // namespace convexcut::sim

@@ -55,6 +55,10 @@ capture::Record datagram(HostTime stamp, std::uint16_t port, std::span<const std
           .payload = payload};
 }
 
+Period imu_period(const RecordingOptions& options) {
+  return {.from = -options.imu_margin, .length = options.length + 2 * options.imu_margin};
+}
+
 }  // namespace
 
 void write_lidar(const RecordingOptions& options, const std::filesystem::path& pcap,
@@ -90,7 +94,8 @@ void write_serial_imu(const RecordingOptions& options, const std::filesystem::pa
   Random noise(options.seed, kSerialImuStream);
   Random reading(options.seed, kReadsStream);
   SerialLine line(options.serial_imu.baud);
-  send_samples(options.serial_imu, RigMotion(options.motion), kStart, options.length, noise, line);
+  send_samples(options.serial_imu, RigMotion(options.motion), kStart, imu_period(options), noise,
+               line);
   capture::CaptureWriter out(pcap, capture::LinkKind::serial);
   for (const SerialRead& read : line.reads(reading)) {
     out.write({.stamp = read.stamp, .kind = capture::RecordKind::serial, .payload = read.bytes});
@@ -102,7 +107,7 @@ void write_can_imu(const RecordingOptions& options, const std::filesystem::path&
   Random random(options.seed, kCanStream);
   replay::AtomicFile out(log);
   out.write(
-      candump_log(options.can_imu, RigMotion(options.motion), kStart, options.length, random));
+      candump_log(options.can_imu, RigMotion(options.motion), kStart, imu_period(options), random));
   out.commit();
 }
 

@@ -17,7 +17,9 @@
 namespace convexcut::sim {
 
 struct RecordingOptions {
-  Duration length = std::chrono::seconds{5};
+  Duration length = std::chrono::seconds{5};  // of lidar data
+  // The IMUs are on before the lidar and stay on after it, so that each firing has an orientation.
+  Duration imu_margin = std::chrono::milliseconds{200};
   std::uint64_t seed = 1;
   Furnishing furnishing = Furnishing::furnished;
   // With PPS the lidar counts UTC; without, from when it was switched on.

@@ -29,15 +29,15 @@ std::array<float, 4> wxyz(const Quaternion& q) {
 }  // namespace
 
 void send_samples(const SerialImuOptions& options, const RigMotion& motion, HostTime start,
-                  Duration length, Random& random, SerialLine& line) {
-  const Duration period = Duration{std::chrono::seconds{1}} / options.rate_hz;
-  for (std::int64_t i = 0; period * i < length; ++i) {
-    const Duration sampled = options.clock.true_time(period * i);
+                  const Period& period, Random& random, SerialLine& line) {
+  const Duration step = Duration{std::chrono::seconds{1}} / options.rate_hz;
+  for (std::int64_t i = 0; step * i < period.length; ++i) {
+    const Duration sampled = period.from + options.clock.true_time(step * i);
     const RigState rig = motion.state(sampled);
     MtData2Writer message;
     message.add(xsens::DataType::packet_counter, static_cast<std::uint16_t>(kFirstCount + i));
     message.add(xsens::DataType::sample_time_fine,
-                static_cast<std::uint32_t>(kFirstTick + period * i / kTick));
+                static_cast<std::uint32_t>(kFirstTick + step * i / kTick));
     message.add(xsens::DataType::quaternion, wxyz(rig.q_level_from_imu));
     message.add(xsens::DataType::acceleration,
                 noisy(rig.specific_force_m_s2, options.noise.acceleration_m_s2, random));

@@ -29,6 +29,7 @@ constexpr std::int64_t kStartNs = 1'772'359'198'000'000'000;  // 2026-03-01 09:5
 RecordingOptions exact() {
   RecordingOptions options;
   options.length = 2s;
+  options.imu_margin = 0s;
   options.serial_imu.clock = {};
   options.serial_imu.noise = {0.0, 0.0};
   options.can_imu.clock = {};
@@ -131,6 +132,19 @@ TEST(SerialRecording, AFastDeviceClockShowsInTheArrivals) {
   // 2 s of the device are 1.98 s of the host: the last frame's arrival tells.
   const std::int64_t last = serial(options).records.back().stamp_ns - kStartNs;
   EXPECT_NEAR(static_cast<double>(last) * 1e-9, 1.99 / 1.01 + 0.0065, 0.006);
+}
+
+TEST(SerialRecording, BeginsBeforeTheLidarAndEndsAfterIt) {
+  RecordingOptions options = exact();
+  options.imu_margin = 200ms;
+  const PcapFile pcap = serial(options);
+  const auto frames = test::imu_frames(pcap);
+  EXPECT_EQ(frames.size(), 240U);
+  const RigMotion motion(options.motion);
+  EXPECT_NEAR(static_cast<double>(frames.front().wxyz[3]), motion.q_level_from_rig(-200ms).z(),
+              1e-6);
+  EXPECT_LT(pcap.records.front().stamp_ns, kStartNs - 180'000'000);
+  EXPECT_GT(pcap.records.back().stamp_ns, kStartNs + 2'180'000'000);
 }
 
 TEST(CanRecording, AGroupIsTimeCounterAndTheThreeValues) {
