@@ -2,6 +2,7 @@
 #include "daemon/dds/publisher.hpp"
 
 #include "daemon/dds/imu_message.hpp"
+#include "daemon/dds/qos.hpp"
 #include "daemon/dds/ros2_time.hpp"
 #include "daemon/dds/topic_name.hpp"
 
@@ -19,8 +20,10 @@ PublishStatus publish_cloud(TopicWriter& writer, CloudMessage& message, const Le
 }  // namespace
 
 ScanPublisher::ScanPublisher(const Participant& participant, const config::Dds& settings)
-    : structure_(participant, kPointCloud2Type, settings.structure_topic, settings),
-      points_(participant, kPointCloud2Type, settings.points_topic, settings),
+    : structure_(participant, kPointCloud2Type, settings.structure_topic,
+                 cloud_writer_qos(settings, kPointCloud2Type)),
+      points_(participant, kPointCloud2Type, settings.points_topic,
+              cloud_writer_qos(settings, kPointCloud2Type)),
       structure_message_(settings.level_frame, CloudContent::structure_only, kExpectedPoints),
       points_message_(settings.level_frame, CloudContent::all_points, kExpectedPoints) {}
 
@@ -33,7 +36,8 @@ PublishStatus ScanPublisher::publish_points(const LevelledScan& scan) {
 }
 
 ImuPublisher::ImuPublisher(const Participant& participant, const config::Dds& settings)
-    : imu_(participant, kImuType, settings.imu_topic, settings), frame_id_(settings.imu_frame) {}
+    : imu_(participant, kImuType, settings.imu_topic, message_writer_qos(settings, kImuType)),
+      frame_id_(settings.imu_frame) {}
 
 PublishStatus ImuPublisher::publish(const ImuSample& sample, HostTime stamp) {
   if (!imu_.has_reader()) return PublishStatus::no_reader;
@@ -42,7 +46,8 @@ PublishStatus ImuPublisher::publish(const ImuSample& sample, HostTime stamp) {
 }
 
 StatusPublisher::StatusPublisher(const Participant& participant, const config::Dds& settings)
-    : status_(participant, kScanStatusType, kStatusTopic, settings) {}
+    : status_(participant, kScanStatusType, kStatusTopic,
+              message_writer_qos(settings, kScanStatusType)) {}
 
 PublishStatus StatusPublisher::publish(const ScanStatus& status) {
   if (!status_.has_reader()) return PublishStatus::no_reader;

@@ -18,16 +18,26 @@ Qos common_qos(std::int32_t depth, const Ros2Type& type) {
   return qos;
 }
 
-}  // namespace
-
-Qos writer_qos(const config::Dds& settings, const Ros2Type& type) {
-  Qos qos = common_qos(kHistoryDepth, type);
-  const bool reliable = settings.reliability == config::Reliability::reliable;
-  dds_qset_reliability(qos.get(), reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
+Qos writer_qos(config::Reliability reliability, std::int32_t depth, const config::Dds& settings,
+               const Ros2Type& type) {
+  Qos qos = common_qos(depth, type);
+  dds_qset_reliability(qos.get(),
+                       reliability == config::Reliability::reliable ? DDS_RELIABILITY_RELIABLE
+                                                                    : DDS_RELIABILITY_BEST_EFFORT,
                        DDS_MSECS(settings.max_blocking_ms));
   // A writer that goes away disposes of nothing: ROS 2's topics have no instances.
   dds_qset_writer_data_lifecycle(qos.get(), false);
   return qos;
+}
+
+}  // namespace
+
+Qos cloud_writer_qos(const config::Dds& settings, const Ros2Type& type) {
+  return writer_qos(settings.reliability, kCloudDepth, settings, type);
+}
+
+Qos message_writer_qos(const config::Dds& settings, const Ros2Type& type) {
+  return writer_qos(config::Reliability::reliable, kMessageDepth, settings, type);
 }
 
 Qos reader_qos(std::int32_t depth, const Ros2Type& type) {

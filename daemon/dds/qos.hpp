@@ -10,13 +10,18 @@
 
 namespace convexcut::daemon {
 
-// Two: the scan being sent and the one before it, so that a reader that lost a fragment can still
-// ask for it again.
-inline constexpr std::int32_t kHistoryDepth = 2;
+// All our writers are VOLATILE and encode plain CDR version 1; a RELIABLE one matches every ROS 2
+// reader. KEEP_LAST: a slow reader loses old samples, it does not hold up the writer.
 
-// What our writers offer: RELIABLE (matches every ROS 2 reader) or BEST_EFFORT, VOLATILE,
-// KEEP_LAST 2, plain CDR version 1.
-[[nodiscard]] Qos writer_qos(const config::Dds& settings, const Ros2Type& type);
+// For clouds: two, so that a lost fragment of the scan before the newest can still be asked for.
+inline constexpr std::int32_t kCloudDepth = 2;
+// For small messages that come often: a quarter of a second of a 400 Hz IMU.
+inline constexpr std::int32_t kMessageDepth = 100;
+
+// RELIABLE or BEST_EFFORT as configured, KEEP_LAST kCloudDepth.
+[[nodiscard]] Qos cloud_writer_qos(const config::Dds& settings, const Ros2Type& type);
+// RELIABLE, KEEP_LAST kMessageDepth.
+[[nodiscard]] Qos message_writer_qos(const config::Dds& settings, const Ros2Type& type);
 
 // The least a reader can ask for, so it matches any writer: BEST_EFFORT, VOLATILE, KEEP_LAST depth.
 [[nodiscard]] Qos reader_qos(std::int32_t depth, const Ros2Type& type);

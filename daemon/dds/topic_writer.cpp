@@ -7,13 +7,12 @@
 namespace convexcut::daemon {
 
 TopicWriter::TopicWriter(const Participant& participant, const Ros2Type& type,
-                         std::string_view ros_name, const config::Dds& settings)
+                         std::string_view ros_name, const Qos& qos)
     : dds_name_(dds_topic_name(ros_name)),
       topic_(require(dds_create_topic(participant.handle(), type.descriptor, dds_name_.c_str(),
                                       nullptr, nullptr),
                      "DDS topic " + dds_name_)),
-      writer_(require(dds_create_writer(participant.handle(), topic_.get(),
-                                        writer_qos(settings, type).get(), nullptr),
+      writer_(require(dds_create_writer(participant.handle(), topic_.get(), qos.get(), nullptr),
                       "DDS writer of " + dds_name_)) {}
 
 PublishStatus TopicWriter::write(const void* sample) noexcept {

@@ -30,7 +30,7 @@ class TopicWriter {
  public:
   // ros_name is without the rt/ of DDS. DdsError when the name or a setting is refused.
   TopicWriter(const Participant& participant, const Ros2Type& type, std::string_view ros_name,
-              const config::Dds& settings);
+              const Qos& qos);
 
   [[nodiscard]] bool has_reader() const noexcept { return readers().matched > 0; }
   // sample is of the topic's C type and is serialised before the call returns.

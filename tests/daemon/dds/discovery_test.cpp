@@ -126,24 +126,33 @@ TEST_F(DiscoveryTest, EveryWriterOffersPlainCdrAlone) {
   }
 }
 
-TEST_F(DiscoveryTest, WritersAreReliableVolatileAndKeepTheLastTwo) {
+TEST_F(DiscoveryTest, WritersAreReliableVolatileAndKeepTheLast) {
   for (const auto& [topic, writer] : publish(testing::test_settings())) {
     EXPECT_EQ(writer.reliability, DDS_RELIABILITY_RELIABLE) << topic;
     EXPECT_EQ(writer.max_blocking, DDS_MSECS(50)) << topic;
     EXPECT_EQ(writer.history, DDS_HISTORY_KEEP_LAST) << topic;
-    EXPECT_EQ(writer.depth, 2) << topic;
     EXPECT_EQ(writer.durability, DDS_DURABILITY_VOLATILE) << topic;
     EXPECT_FALSE(writer.autodispose) << topic;
     EXPECT_EQ(writer.partitions, 0U) << topic;
   }
 }
 
-TEST_F(DiscoveryTest, WritersAreBestEffortWhenConfigured) {
+TEST_F(DiscoveryTest, CloudsKeepTwoSamplesAndSmallMessagesAHundred) {
+  const auto writers = publish(testing::test_settings());
+  EXPECT_EQ(writers.at("rt/convexcut/structure").depth, 2);
+  EXPECT_EQ(writers.at("rt/convexcut/points").depth, 2);
+  EXPECT_EQ(writers.at("rt/imu/data").depth, 100);
+  EXPECT_EQ(writers.at("rt/convexcut/status").depth, 100);
+}
+
+TEST_F(DiscoveryTest, CloudsAreBestEffortWhenConfigured) {
   config::Dds settings = testing::test_settings();
   settings.reliability = config::Reliability::best_effort;
-  for (const auto& [topic, writer] : publish(settings)) {
-    EXPECT_EQ(writer.reliability, DDS_RELIABILITY_BEST_EFFORT) << topic;
-  }
+  const auto writers = publish(settings);
+  EXPECT_EQ(writers.at("rt/convexcut/structure").reliability, DDS_RELIABILITY_BEST_EFFORT);
+  EXPECT_EQ(writers.at("rt/convexcut/points").reliability, DDS_RELIABILITY_BEST_EFFORT);
+  EXPECT_EQ(writers.at("rt/imu/data").reliability, DDS_RELIABILITY_RELIABLE);
+  EXPECT_EQ(writers.at("rt/convexcut/status").reliability, DDS_RELIABILITY_RELIABLE);
 }
 
 // A participant with an enclave but without ros_discovery_info shows as a nameless node.

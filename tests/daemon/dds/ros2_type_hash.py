@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks the ROS 2 type hashes of a header against the IDL file that they describe.
 
-    ros2_type_hash.py ros2.idl ros2_type.hpp
+    ros2_type_hash.py ros2.idl ros2_type.hpp ros2.md
 
 A type hash (REP-2011, RIHS01) is the SHA-256 of a canonical JSON description of a message: names,
 order and types of all members at all levels. The hashes of the sensor_msgs types are ROS's own, so
 agreement proves that the IDL has exactly ROS's members. Every octet of the IDL is a ROS uint8.
-Exit status 0: every @topic type has its hash in the header.
+The document must have the definition of convexcut/msg/ScanStatus, as ROS writes it, with the same members.
+Exit status 0: every @topic type has its hash in the header, and the document agrees.
 """
 
 import hashlib
@@ -76,7 +77,18 @@ def type_hash(name, types):
     return 'RIHS01_' + hashlib.sha256(json.dumps(description).encode()).hexdigest()
 
 
-def main(idl_path, header_path):
+ROS_TYPE_IDS = {'uint8': 3, 'uint16': 5, 'int32': 6, 'uint32': 7, 'int64': 8, 'uint64': 9,
+                'float32': 10, 'float64': 11, 'bool': 15}
+
+
+def documented_members(document):
+    """[(type id, name)] of the .msg lines, indented by four; constants have a '='."""
+    lines = re.findall(r'^    ([\w/]+) +(\w+) *(?:#.*)?$', document, re.MULTILINE)
+    return [(ROS_TYPE_IDS.get(kind, NESTED), name) for kind, name in lines
+            if kind in ROS_TYPE_IDS or kind == 'builtin_interfaces/Time']
+
+
+def main(idl_path, header_path, document_path):
     with open(idl_path, encoding='utf-8') as file:
         types, topics = parse(file.read())
     with open(header_path, encoding='utf-8') as file:
@@ -87,7 +99,13 @@ def main(idl_path, header_path):
         found = value in header
         missing += not found
         print(f'{name} {value} {"ok" if found else "NOT IN " + header_path}')
-    return 1 if missing or not topics else 0
+    with open(document_path, encoding='utf-8') as file:
+        documented = documented_members(file.read())
+    expected = [(m['type']['type_id'], m['name'])
+                for m in types['convexcut/msg/ScanStatus']['fields']]
+    if documented != expected:
+        print(f'{document_path}: ScanStatus.msg is {documented}, expected {expected}')
+    return 1 if missing or not topics or documented != expected else 0
 
 
 if __name__ == '__main__':
