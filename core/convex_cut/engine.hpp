@@ -17,6 +17,7 @@
 #include "core/convex_cut/slice_worker.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
 #include "core/convex_cut/worker_team.hpp"
+#include "core/workspace.hpp"
 
 namespace convexcut {
 
@@ -42,7 +43,7 @@ class ConvexCutEngine {
   std::vector<SlicingPlane> planes_;
   std::vector<ShellIndex::Windows> windows_;  // of each plane
   ShellIndex index_;
-  std::vector<std::uint8_t> structure_;  // by position in the index
+  Workspace<std::uint8_t> structure_;  // by position in the index
   std::vector<std::unique_ptr<SliceWorker>> workers_;
   std::atomic<std::uint32_t> next_plane_{0};  // of the cloud at hand
   WorkerTeam team_;

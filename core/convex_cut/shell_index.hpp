@@ -16,6 +16,7 @@
 
 #include "core/cloud.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
+#include "core/workspace.hpp"
 
 namespace convexcut {
 
@@ -72,9 +73,9 @@ class ShellIndex {
  private:
   float inverse_squared_half_width_;
   std::size_t size_ = 0;
-  std::vector<float> x_, y_, z_;
-  std::vector<std::uint32_t> source_;
-  std::vector<std::uint16_t> keys_;    // shell · kBuckets + bucket, in the cloud's order
+  Workspace<float> x_, y_, z_;
+  Workspace<std::uint32_t> source_;
+  Workspace<std::uint16_t> keys_;      // shell · kBuckets + bucket, in the cloud's order
   std::vector<std::uint32_t> starts_;  // of each key in the sorted points, and the end
 };
 

@@ -7,10 +7,11 @@
 
 namespace convexcut {
 
-// Metres. u runs along the plane's horizontal direction, z is up; ordered by u, then z.
+// Metres. u runs along the plane's horizontal direction, z is up; ordered by u, then z. Without
+// defaults, so that a Workspace of them stays untouched until it is used.
 struct SlicePoint {
-  double u = 0.0;
-  double z = 0.0;
+  double u;
+  double z;
   friend constexpr bool operator==(const SlicePoint&, const SlicePoint&) = default;
   friend constexpr bool operator<(const SlicePoint& a, const SlicePoint& b) noexcept {
     return a.u < b.u || (a.u == b.u && a.z < b.z);

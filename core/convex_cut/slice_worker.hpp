@@ -21,6 +21,7 @@
 #include "core/convex_cut/shell_index.hpp"
 #include "core/convex_cut/slice_kernels.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
+#include "core/workspace.hpp"
 
 namespace convexcut {
 
@@ -59,12 +60,12 @@ class SliceWorker {
   float tolerance_m_ = 0.0F;  // of depths, for the cloud at hand
 
   std::size_t count_ = 0;  // members; after select() those that are still to be decided
-  std::vector<float> u_, z_, depth_;
-  std::vector<std::uint32_t> position_;
-  std::vector<std::uint32_t> candidate_position_;
-  std::vector<SlicePoint> candidates_;  // for vertices of the hull
-  std::vector<SlicePoint> vertices_;
-  std::vector<float> normal_u_, normal_z_, edge_offset_;
+  Workspace<float> u_, z_, depth_;
+  Workspace<std::uint32_t> position_;
+  Workspace<std::uint32_t> candidate_position_;
+  Workspace<SlicePoint> candidates_;  // for vertices of the hull
+  Workspace<SlicePoint> vertices_;
+  Workspace<float> normal_u_, normal_z_, edge_offset_;
 };
 
 }  // namespace convexcut

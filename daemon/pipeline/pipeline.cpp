@@ -90,7 +90,8 @@ bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
   for (const Label label : out.label) out.structure_points += label == Label::structure ? 1U : 0U;
 
   first_waiting_ = (first_waiting_ + 1) % kMaxWaiting;
-  --waiting_count_;
+  // An empty queue starts over, so that the same few scans' memory stays in use.
+  if (--waiting_count_ == 0) first_waiting_ = 0;
   return true;
 }
 
