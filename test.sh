@@ -58,7 +58,18 @@ ctest_preset() {
   fi
 }
 
-build_preset() { cmake --preset "$1" "${@:2}" && cmake --build --preset "$1" -j 2; }
+# build_preset PRESET [-D…] [--target NAME]
+build_preset() {
+  local preset=$1 defines=() target=all
+  shift
+  while [ $# -gt 0 ]; do
+    case "$1" in
+      --target) target=$2; shift 2 ;;
+      *) defines+=("$1"); shift ;;
+    esac
+  done
+  cmake --preset "$preset" "${defines[@]}" && cmake --build --preset "$preset" --target "$target" -j 2
+}
 
 for step in "${steps[@]}"; do
   case "$step" in
@@ -66,14 +77,17 @@ for step in "${steps[@]}"; do
     release) check build-release build_preset release && ctest_preset release ;;
     asan) check build-asan build_preset asan -DCONVEXCUT_BENCH=OFF && ctest_preset asan ;;
     # Only what runs on several threads: the other tests cannot race.
-    tsan) check build-tsan build_preset tsan -DCONVEXCUT_BENCH=OFF && ctest_preset tsan -L threads ;;
+    tsan)
+      check build-tsan build_preset tsan -DCONVEXCUT_BENCH=OFF --target threads_tests &&
+        ctest_preset tsan -L threads
+      ;;
     fuzz)
       if check build-fuzz build_preset fuzz; then
         for target in build/fuzz/fuzz/fuzz_*; do
-          [ -x "$target" ] && [[ $target != *.* ]] && echo "$target"
+          echo "$target"
         done | xargs -P 2 -n 1 scripts/run-fuzzer.sh "${FUZZ_SECONDS:-20}"
-        for result in "$logs"/fuzz_*.result; do
-          check "$(basename "$result" .result)" cat "$result" "$(dirname "$result")/$(basename "$result" .result).ok"
+        for target in build/fuzz/fuzz/fuzz_*; do
+          check "$(basename "$target")" scripts/run-fuzzer.sh --result "$target"
         done
       fi
       ;;

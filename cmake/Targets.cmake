@@ -31,6 +31,9 @@ function(convexcut_test name)
   # SYSTEM silences nothing of ours: GoogleTest's own macros are what -Wconversion would flag.
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} convexcut_test_support GTest::gmock GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  if("threads" IN_LIST ARG_LABELS)
+    add_dependencies(threads_tests ${name})
+  endif()
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}")
 endfunction()

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs one libFuzzer target for some seconds: scripts/run-fuzzer.sh SECONDS PROGRAM
+# Runs one libFuzzer target for some seconds:   scripts/run-fuzzer.sh SECONDS PROGRAM
+# Shows how that went; fails on a finding:      scripts/run-fuzzer.sh --result PROGRAM
 # Seeds come from tests/fuzz/seeds/NAME and, where real recordings are at hand, from those.
 # Leaves build/logs/NAME.result (the output) and, when nothing was found, build/logs/NAME.ok.
 set -uo pipefail
@@ -8,6 +9,10 @@ seconds=$1 program=$2
 name=$(basename "$program")
 corpus=build/fuzz-corpus/$name
 result=build/logs/$name.result ok=build/logs/$name.ok
+if [ "$seconds" = --result ]; then
+  cat "$result" "$ok"
+  exit
+fi
 mkdir -p "$corpus" build/fuzz-findings build/logs
 rm -f "$ok"
 seeds=()

@@ -56,10 +56,10 @@ TEST_F(DaemonProgram, WatchSeesTheTopicsOfAnotherProcess) {
   make_room({"--seconds", "3"});
   ProgramResult watch;
   std::thread watching([&watch] {
-    watch = run_program("convexcut", {"watch", "--domain", domain(), "--seconds", "20", "--json"});
+    watch = run_program("convexcut", {"watch", "--domain", domain(), "--seconds", "10", "--json"});
   });
   const ProgramResult run =
-      run_daemon({"--lidar", lidar(), "--imu", imu(), "--wait-for-reader", "15"});
+      run_daemon({"--lidar", lidar(), "--imu", imu(), "--wait-for-reader", "5"});
   watching.join();
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(watch.status, 0) << watch.err;  // 0: data came
