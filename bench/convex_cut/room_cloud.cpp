@@ -56,6 +56,7 @@ constexpr std::array<Box, 7> kFurniture{{
 RoomCloud room_cloud(std::size_t firings, double tilt_deg) {
   constexpr std::size_t kLasers = 32;
   constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+  // The same room in every run. NOLINTNEXTLINE(cert-msc32-c,cert-msc51-cpp)
   std::mt19937_64 random(1);
   const auto uniform = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
   const double tilt = tilt_deg * kRadiansPerDegree;
