@@ -19,7 +19,8 @@
 
 namespace convexcut::recording {
 
-// A recorded CAN bus with an Xsens IMU on it: a candump log or a capture of link type CAN_SOCKETCAN.
+// A recorded CAN bus with an Xsens IMU on it: a candump log or a capture of link type
+// CAN_SOCKETCAN.
 class CanRecording final : public RecordedStream {
  public:
   // Tells the two kinds by their first bytes. Throws capture::CaptureError or std::runtime_error:
