@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <span>
+#include <utility>
 
 #include "apps/demo_room/imu_simulator.hpp"
 #include "drivers/wire.hpp"
+#include "replay/text.hpp"
 
 namespace convexcut::sim {
 namespace {
@@ -55,15 +56,10 @@ class Bus {
  private:
   void append_line(HostTime received, std::uint32_t id, std::span<const std::byte> data) {
     const std::int64_t micros = to_ns(received) / 1000;
-    std::array<char, 64> text{};
-    int size = std::snprintf(text.data(), text.size(), "(%010lld.%06lld) can0 %03X#",
-                             static_cast<long long>(micros / 1'000'000),
-                             static_cast<long long>(micros % 1'000'000), id);
-    log_.append(text.data(), static_cast<std::size_t>(size));
-    for (const std::byte b : data) {
-      size = std::snprintf(text.data(), text.size(), "%02X", std::to_integer<unsigned>(b));
-      log_.append(text.data(), static_cast<std::size_t>(size));
-    }
+    log_ +=
+        replay::format("(%010lld.%06lld) can0 %03X#", static_cast<long long>(micros / 1'000'000),
+                       static_cast<long long>(micros % 1'000'000), id);
+    for (const std::byte b : data) log_ += replay::format("%02X", std::to_integer<unsigned>(b));
     log_ += '\n';
   }
 

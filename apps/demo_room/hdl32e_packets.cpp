@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <string>
 #include <string_view>
 
 #include "drivers/velodyne/model.hpp"
 #include "drivers/wire.hpp"
+#include "replay/text.hpp"
 
 namespace convexcut::sim {
 namespace {
@@ -28,21 +28,17 @@ std::string gprmc(HostTime utc, bool valid) {
   const auto day = chr::floor<chr::days>(time);
   const chr::year_month_day date(day);
   const chr::hh_mm_ss clock(chr::floor<chr::seconds>(time - day));
-  std::array<char, 80> body{};
-  std::snprintf(body.data(), body.size(),
-                "$GPRMC,%02d%02d%02d,%c,5231.2000,N,01324.3000,E,000.0,000.0,%02u%02u%02d,,,%c",
-                static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
-                static_cast<int>(clock.seconds().count()), valid ? 'A' : 'V',
-                static_cast<unsigned>(date.day()), static_cast<unsigned>(date.month()),
-                static_cast<int>(date.year()) % 100, valid ? 'A' : 'N');
-  std::string sentence = body.data();
+  std::string sentence = replay::format(
+      "$GPRMC,%02d%02d%02d,%c,5231.2000,N,01324.3000,E,000.0,000.0,%02u%02u%02d,,,%c",
+      static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
+      static_cast<int>(clock.seconds().count()), valid ? 'A' : 'V',
+      static_cast<unsigned>(date.day()), static_cast<unsigned>(date.month()),
+      static_cast<int>(date.year()) % 100, valid ? 'A' : 'N');
   unsigned checksum = 0;  // NMEA 0183: all characters between $ and *
   for (const char c : std::string_view(sentence).substr(1)) {
     checksum ^= static_cast<unsigned char>(c);
   }
-  std::array<char, 8> end{};
-  std::snprintf(end.data(), end.size(), "*%02X\r\n", checksum);
-  sentence += end.data();
+  sentence += replay::format("*%02X\r\n", checksum);
   return sentence;
 }
 

@@ -89,6 +89,8 @@ int run(Arguments& a) {
 }  // namespace
 }  // namespace convexcut::sim
 
+// What could escape is a mistake in the definition of the options: then it may end the program.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   using namespace convexcut;
   CLI::App root(sim::kAbout, "convexcut-demo-room");

@@ -2,10 +2,11 @@
 #include "apps/demo_room/scene.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 namespace convexcut::sim {
 
-Scene::Scene(const RoomShell& room) : room_(room) {
+Scene::Scene(RoomShell room) : room_(std::move(room)) {
   if (!room_.contains(Vec3::Zero())) throw std::invalid_argument("the lidar is outside the room");
 }
 

@@ -15,7 +15,7 @@ namespace convexcut::sim {
 class Scene {
  public:
   // Throws std::invalid_argument when the lidar is outside the room.
-  explicit Scene(const RoomShell& room);
+  explicit Scene(RoomShell room);
 
   void add(Thing thing) { things_.push_back(std::move(thing)); }
   void add(Walker walker) { walkers_.push_back(std::move(walker)); }

@@ -7,10 +7,7 @@
 namespace convexcut::sim {
 
 Thing::Thing(std::vector<Box> boxes, std::vector<Cylinder> cylinders)
-    : boxes_(std::move(boxes)),
-      cylinders_(std::move(cylinders)),
-      centre_(Vec3::Zero()),
-      radius_(0) {
+    : boxes_(std::move(boxes)), cylinders_(std::move(cylinders)), centre_(Vec3::Zero()) {
   for (const Box& box : boxes_) centre_ += box.middle();
   for (const Cylinder& cylinder : cylinders_) centre_ += cylinder.middle();
   centre_ /= static_cast<double>(std::max<std::size_t>(boxes_.size() + cylinders_.size(), 1));

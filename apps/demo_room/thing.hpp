@@ -20,7 +20,7 @@ class Thing {
   std::vector<Box> boxes_;
   std::vector<Cylinder> cylinders_;
   Vec3 centre_;
-  double radius_;
+  double radius_ = 0.0;
 };
 
 }  // namespace convexcut::sim

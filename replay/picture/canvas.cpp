@@ -131,8 +131,10 @@ void Canvas::dashed_line(Pixel from, Pixel to, double width, double dash, Colour
     return Pixel{from.x + (to.x - from.x) * along / length,
                  from.y + (to.y - from.y) * along / length};
   };
-  for (double along = 0.0; along < length; along += 2 * dash) {
-    line(at(along), at(std::min(along + dash, length)), width, colour);
+  const auto dashes = static_cast<int>(std::ceil(length / (2 * dash)));
+  for (int i = 0; i < dashes; ++i) {
+    const double begin = 2 * dash * i;
+    line(at(begin), at(std::min(begin + dash, length)), width, colour);
   }
 }
 

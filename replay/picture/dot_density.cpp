@@ -22,7 +22,7 @@ void DotDensity::add(Pixel at, Label label) noexcept {
   const auto row = static_cast<std::size_t>(y);
   const auto right = static_cast<float>(x - std::floor(x));
   const auto below = static_cast<float>(y - std::floor(y));
-  const std::size_t stride = static_cast<std::size_t>(width_);
+  const auto stride = static_cast<std::size_t>(width_);
   const std::size_t which = label == Label::structure ? 1 : 0;
   weight_[row * stride + column][which] += (1 - right) * (1 - below);
   weight_[row * stride + column + 1][which] += right * (1 - below);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "replay/picture/theme.hpp"
@@ -18,20 +19,20 @@ constexpr double kNumberGap = 9.0;  // from the area to its numbers
 
 // The least of 1, 2, 5, 10, … metres that covers as many pixels.
 double round_step(double pixels_per_metre, double least_pixels) noexcept {
-  double decade = 1.0;
-  while (decade < 1e6) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      if (factor * decade * pixels_per_metre >= least_pixels) return factor * decade;
-    }
-    decade *= 10.0;
+  const double least = std::max(1.0, least_pixels / pixels_per_metre);
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * decade >= least) return factor * decade;
   }
-  return decade;
+  return 10.0 * decade;
 }
 
 // Calls use(metres) for the multiples of `step` within.
 template <class Use>
 void for_each_step(const Extent& extent, double step, Use&& use) {
-  for (double i = std::ceil(extent.low / step); i * step <= extent.high; ++i) use(i * step);
+  const auto first = static_cast<std::int64_t>(std::ceil(extent.low / step));
+  const auto last = static_cast<std::int64_t>(std::floor(extent.high / step));
+  for (std::int64_t i = first; i <= last; ++i) use(static_cast<double>(i) * step);
 }
 
 }  // namespace

@@ -213,6 +213,15 @@ TEST(Picture, AFewFarPointsDoNotShrinkTheRoom) {
   EXPECT_NEAR(near->y, with_far->y, 3.0);
 }
 
+TEST(Picture, AbsurdCoordinatesGiveAPictureAllTheSame) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  const Points points = Points()
+                            .add(kLargest, 0.0F, 1.0F, Label::structure)
+                            .add(-kLargest, 0.0F, -kLargest, Label::structure)
+                            .add(0.0F, kLargest, kLargest, Label::other);
+  EXPECT_EQ(picture(points.input()).width, 1600U);
+}
+
 TEST(Picture, AnEmptyCloudGivesAPicture) {
   EXPECT_EQ(picture({{}, {}, "empty", {}, 0.05}).width, 1600U);
 }
