@@ -28,7 +28,7 @@ fi
 bin=build/release/bin
 seconds=${DEMO_SECONDS:-8}
 # A domain of its own, so that other DDS programs of this machine are not disturbed.
-domain=$((100 + RANDOM % 100))
+domain=$((1 + RANDOM % 99))
 
 # play CONVEXCUTD-ARGUMENTS…: the daemon with `convexcut watch` beside it.
 watching=

@@ -19,9 +19,9 @@ struct PublishingCounters {
   Counter timed_out;
 };
 
-// Takes results from the worker and writes each exactly `latency` after its last firing; one that
-// comes later is written at once, marked late and counted. Not a realtime thread: DDS allocates and
-// locks.
+// Takes results from the worker and writes each so that the write returns `latency` after the
+// scan's last firing; one that comes later is written at once, marked late and counted. Not a
+// realtime thread: DDS allocates and locks.
 class ScanPublishing {
  public:
   // `complete` fills in the totals of a status: what other parts of the daemon have counted.
@@ -47,6 +47,7 @@ class ScanPublishing {
   SpscRing<LevelledScan>& results_;
   std::function<void(ScanStatus&)> complete_;
   PublishingCounters counters_;
+  Duration lead_{0};  // average time of a write
 };
 
 }  // namespace convexcut::daemon

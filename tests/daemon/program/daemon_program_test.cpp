@@ -21,7 +21,7 @@ using ::testing::Not;
 class DaemonProgram : public RoomTest {
  protected:
   // A DDS domain of this test's own.
-  static std::string domain() { return std::to_string(100 + ::getpid() % 100); }
+  static std::string domain() { return std::to_string(1 + ::getpid() % 99); }
 
   [[nodiscard]] static ProgramResult run_daemon(const std::vector<std::string>& arguments,
                                                 const ProgramLimits& limits = {}) {
