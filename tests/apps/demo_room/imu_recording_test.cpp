@@ -19,7 +19,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::MiniCanFrame;
-using test::MiniImu;
 using test::PcapFile;
 using test::TemporaryDirectory;
 
@@ -95,9 +94,11 @@ TEST(SerialRecording, NoByteIsReadBeforeTheLineCanHaveBroughtIt) {
     ASSERT_GT(record.stamp_ns, previous);
     previous = record.stamp_ns;
     bytes += static_cast<std::int64_t>(record.bytes.size());
-    const std::int64_t last = bytes - 1;  // sample last / 73, of it the byte last % 73
+    const std::int64_t last = bytes - 1;
+    const std::int64_t sample = last / 73;
+    const std::int64_t byte = last % 73;
     const double on_line_ms =
-        static_cast<double>(last / 73) * 10.0 + static_cast<double>(last % 73 + 1) * 10.0 / 115.2;
+        static_cast<double>(sample) * 10.0 + static_cast<double>(byte + 1) * 10.0 / 115.2;
     const double waited = static_cast<double>(record.stamp_ns - kStartNs) * 1e-6 - on_line_ms;
     ASSERT_GT(waited, 0.0);
     least_wait_ms = std::min(least_wait_ms, waited);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/apps/demo_room/mini_decoder.hpp"
 
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -120,16 +119,15 @@ std::vector<MiniCanFrame> candump_frames(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::vector<MiniCanFrame> out;
   for (std::string line; std::getline(in, line);) {
-    long long seconds = 0;
-    long long micros = 0;
-    unsigned id = 0;
-    char hex[32] = "";
-    if (std::sscanf(line.c_str(), "(%10lld.%6lld) can0 %3X#%31[0-9A-F]", &seconds, &micros, &id,
-                    hex) != 4) {
+    // (1772359198.000509) can0 005#075BCD15
+    if (line.size() < 31 || line[0] != '(' || line[11] != '.' || line.substr(18, 7) != ") can0 " ||
+        line[28] != '#') {
       throw std::runtime_error("not a candump line: " + line);
     }
-    MiniCanFrame frame{seconds * 1'000'000 + micros, id, {}};
-    const std::string digits = hex;
+    MiniCanFrame frame{std::stoll(line.substr(1, 10)) * 1'000'000 + std::stoll(line.substr(12, 6)),
+                       static_cast<std::uint32_t>(std::stoul(line.substr(25, 3), nullptr, 16)),
+                       {}};
+    const std::string digits = line.substr(29);
     for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
       frame.data.push_back(static_cast<std::uint8_t>(std::stoi(digits.substr(i, 2), nullptr, 16)));
     }

@@ -51,6 +51,7 @@ struct Slot {
   std::uint8_t sample = 0;  // number of the claim that filled it, from 1
   bool being_filled = false;
   bool being_read = false;
+  // NOLINTNEXTLINE(modernize-use-nullptr,readability-implicit-bool-conversion): a false alarm
   friend auto operator<=>(const Slot&, const Slot&) = default;
 };
 
@@ -72,6 +73,7 @@ struct State {
   std::uint8_t batch_read = 0;
   std::uint8_t popped = 0;
   std::uint8_t last_sample = 0;
+  // NOLINTNEXTLINE(modernize-use-nullptr): a false alarm
   friend auto operator<=>(const State&, const State&) = default;
 };
 
