@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/scan/scan.hpp"
+#include "core/workspace.hpp"
 #include "replay/atomic_file.hpp"
 
 namespace convexcut::replay {
@@ -43,7 +43,7 @@ class ScanWriter {
   std::filesystem::path directory_;
   ScanFormat format_;
   std::uint64_t next_index_ = 0;
-  std::vector<char> buffer_;
+  Workspace<char> buffer_;  // of the scan at hand
   AtomicFile index_;
 };
 

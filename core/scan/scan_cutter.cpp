@@ -125,29 +125,41 @@ std::int64_t ScanCutter::sector_of(const Firing& firing, LidarTime time) noexcep
 
 void ScanCutter::add(const ReturnBatch& batch, const Firing& firing, LidarTime time) noexcept {
   scan_.last_firing = time;
-  const std::size_t first = firing.first_return;
-  const std::size_t last = first + firing.return_count;
   const bool has_room = scan_.firings.size() < max_firings_;
   const auto first_in_scan = static_cast<std::uint32_t>(scan_.size());
-  const std::int64_t batch_after_scan = (batch_time_ - scan_.first_firing).count();
-  for (std::size_t i = first; i < last; ++i) {
-    if (!selects(batch, i)) continue;
-    if (!has_room || scan_.size() >= max_returns_) {
-      ++scan_.overflow_returns;
-      continue;
-    }
-    scan_.x_lidar.push_back(batch.x_lidar[i]);
-    scan_.y_lidar.push_back(batch.y_lidar[i]);
-    scan_.z_lidar.push_back(batch.z_lidar[i]);
-    scan_.intensity.push_back(batch.intensity[i]);
-    scan_.ring.push_back(batch.ring[i]);
-    // Negative only in batches that overlap.
-    const std::int64_t after = std::max<std::int64_t>(batch_after_scan + batch.offset_ns[i], 0);
-    scan_.time_ns.push_back(static_cast<std::uint32_t>(after));
+  // Mostly all returns of a firing are wanted: one run.
+  const std::size_t last = std::size_t{firing.first_return} + firing.return_count;
+  std::size_t begin = firing.first_return;
+  while (begin < last) {
+    std::size_t end = begin;
+    while (end < last && selects(batch, end)) ++end;
+    add_run(batch, begin, end, has_room ? max_returns_ - scan_.size() : 0);
+    begin = end + 1;  // the one that is not wanted
   }
   if (!has_room) return;
   scan_.firings.push_back(
       {time, first_in_scan, static_cast<std::uint32_t>(scan_.size()) - first_in_scan});
+}
+
+void ScanCutter::add_run(const ReturnBatch& batch, std::size_t begin, std::size_t end,
+                         std::size_t room) noexcept {
+  const std::size_t count = std::min(end - begin, room);
+  scan_.overflow_returns += static_cast<std::uint32_t>(end - begin - count);
+  const auto append = [begin, count](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin),
+              from.begin() + static_cast<std::ptrdiff_t>(begin + count));
+  };
+  append(scan_.x_lidar, batch.x_lidar);
+  append(scan_.y_lidar, batch.y_lidar);
+  append(scan_.z_lidar, batch.z_lidar);
+  append(scan_.intensity, batch.intensity);
+  append(scan_.ring, batch.ring);
+  const std::int64_t batch_after_scan = (batch_time_ - scan_.first_firing).count();
+  for (std::size_t i = begin; i < begin + count; ++i) {
+    // Negative only in batches that overlap.
+    const std::int64_t after = std::max<std::int64_t>(batch_after_scan + batch.offset_ns[i], 0);
+    scan_.time_ns.push_back(static_cast<std::uint32_t>(after));
+  }
 }
 
 bool ScanCutter::selects(const ReturnBatch& batch, std::size_t i) const noexcept {

@@ -81,6 +81,9 @@ class ScanCutter {
   // Revolution: turns past the cut azimuth. Clock: windows since the epoch of LidarTime.
   [[nodiscard]] std::int64_t sector_of(const Firing& firing, LidarTime time) noexcept;
   void add(const ReturnBatch& batch, const Firing& firing, LidarTime time) noexcept;
+  // Adds the batch's returns [begin, end), of which `room` have a place.
+  void add_run(const ReturnBatch& batch, std::size_t begin, std::size_t end,
+               std::size_t room) noexcept;
   [[nodiscard]] bool selects(const ReturnBatch& batch, std::size_t i) const noexcept;
   void measure_rotor() noexcept;
 
