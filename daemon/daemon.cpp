@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/daemon.hpp"
 
+#include <algorithm>
+#include <csignal>
 #include <ctime>
 #include <utility>
-
-#include <signal.h>
 
 #include "daemon/log/log.hpp"
 #include "drivers/velodyne/model.hpp"

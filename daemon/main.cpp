@@ -3,8 +3,7 @@
 // convexcutd: the daemon. See `convexcutd --help`.
 #include <charconv>
 #include <cmath>
-
-#include <signal.h>
+#include <csignal>
 
 #include "daemon/command_line/arguments.hpp"
 #include "daemon/daemon.hpp"
@@ -55,9 +54,7 @@ int run(const Arguments& args) {
   return command_line::kDone;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int program(int argc, char** argv) {
   CLI::App root(
       "Publishes the structure of a room (walls, floor, ceiling) over DDS, ten times a second, "
       "from a "
@@ -79,4 +76,10 @@ int main(int argc, char** argv) {
       "  convexcutd --lidar lidar.pcap --imu imu.pcap &\n"
       "  convexcut watch");
   return command_line::run_program(root, argc, argv, [&args] { return run(args); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return command_line::guarded([argc, argv] { return program(argc, argv); });
 }

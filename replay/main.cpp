@@ -6,8 +6,11 @@
 #include "daemon/command_line/arguments.hpp"
 #include "replay/commands.hpp"
 
-int main(int argc, char** argv) {
-  using namespace convexcut;
+namespace {
+
+using namespace convexcut;  // a program's main file: nobody includes it
+
+int program(int argc, char** argv) {
   CLI::App root(
       "Separates a room's structure (walls, floor, ceiling) from everything in it, in the data of "
       "a "
@@ -26,4 +29,10 @@ int main(int argc, char** argv) {
     }
     return static_cast<int>(command_line::kUsage);
   });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return command_line::guarded([argc, argv] { return program(argc, argv); });
 }

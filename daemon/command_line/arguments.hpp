@@ -3,10 +3,13 @@
 // What the command lines of all programs have in common.
 #pragma once
 
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -37,5 +40,18 @@ struct RecordingArguments {
 // A program's body: parses, runs, and turns exceptions into one line on stderr and an exit status.
 [[nodiscard]] int run_program(CLI::App& root, int argc, char** argv,
                               const std::function<int()>& run);
+
+// What main() is made of: no exception leaves it.
+template <class Program>
+[[nodiscard]] int guarded(Program&& program) noexcept {
+  try {
+    return std::forward<Program>(program)();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  } catch (...) {
+    std::fputs("an unknown error\n", stderr);
+  }
+  return kFailed;
+}
 
 }  // namespace convexcut::command_line
