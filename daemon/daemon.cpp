@@ -17,12 +17,13 @@ WorkerOptions worker_options(const config::Worker& settings) {
           std::chrono::milliseconds{settings.latency_ms}};
 }
 
-// In the daemon a scan waits for its last orientations no longer than the latency allows: half of
-// it remains for levelling, cutting and handing over.
+// In the daemon a scan waits for its last orientations no longer than the latency allows: three
+// fifths of it remain for levelling, cutting and writing.
 PipelineOptions live_pipeline_options(const config::Config& config) {
   PipelineOptions options = pipeline_options(config);
-  options.orientation_wait = std::min(
-      options.orientation_wait, Duration{std::chrono::milliseconds{config.worker.latency_ms}} / 2);
+  options.orientation_wait =
+      std::min(options.orientation_wait,
+               Duration{std::chrono::milliseconds{config.worker.latency_ms}} * 2 / 5);
   return options;
 }
 

@@ -6,11 +6,10 @@
 namespace convexcut::daemon {
 namespace {
 
-// The worker wakes this long after the expected last firing of a revolution: the last datagram has
-// arrived and its orientation too, and half the latency is left for levelling and cutting.
-[[nodiscard]] constexpr Duration collect_time(const WorkerOptions& options) noexcept {
-  return options.latency / 2;
-}
+// The worker wakes this long after the expected last firing of a revolution, when its last datagram
+// has arrived. The revolution's packets are put in order while its last orientations are still to
+// come.
+constexpr Duration kCollectTime = std::chrono::milliseconds{1};
 
 // The grid follows the rotor only at these speeds (the contract's 9–11 Hz, plus measurement error).
 constexpr double kSlowestLocked_hz = 8.9;
@@ -112,7 +111,7 @@ HostTime Worker::next_tick(HostTime tick) const noexcept {
   const double hz = pipeline_.rotor_hz();
   if (hz < kSlowestLocked_hz || hz > kFastestLocked_hz) return tick + options_.period;
   const Duration turn{static_cast<Duration::rep>(1e9 / hz)};
-  return last_result_end_ + turn + collect_time(options_);
+  return last_result_end_ + turn + kCollectTime;
 }
 
 void reserve_slots(SpscRing<LevelledScan>& results) {
