@@ -2,7 +2,7 @@
 # Builds and checks everything, as continuous integration does, and closes with the counts.
 #   ./test.sh            all of it (about 15 minutes on two cores)
 #   ./test.sh --quick    release build and its tests only
-#   ./test.sh STEP …     chosen steps: format release asan tsan fuzz bench tidy
+#   ./test.sh STEP …     chosen steps: format release asan tsan fuzz bench tidy, and analyze
 # FUZZ_SECONDS (20) is the time of each fuzz target.
 set -uo pipefail
 cd "$(dirname "$0")"
@@ -93,7 +93,8 @@ for step in "${steps[@]}"; do
       ;;
     bench) check bench scripts/check-ratios.sh && sed -n 's/^figure: /        /p' "$logs/bench.log" ;;
     tidy) check tidy scripts/check-tidy.sh ;;
-    *) echo "test.sh: unknown step '$step': expected format release asan tsan fuzz bench tidy" >&2; exit 2 ;;
+    analyze) check analyze scripts/check-tidy.sh analyze ;;
+    *) echo "test.sh: unknown step '$step': expected format release asan tsan fuzz bench tidy analyze" >&2; exit 2 ;;
   esac
 done
 

@@ -29,7 +29,7 @@ struct RecordingPaths {
 
 [[nodiscard]] velodyne::LidarDriverOptions lidar_driver_options(const config::Lidar& lidar);
 [[nodiscard]] xsens::ImuDriverOptions imu_driver_options(const config::Imu& imu);
-[[nodiscard]] can::CanImuOptions can_driver_options(const config::Can& can);
+[[nodiscard]] can::CanImuOptions can_driver_options(const config::Can& settings);
 
 // What to say of a recording that was read without finding any: one line.
 [[nodiscard]] std::string no_lidar_packets(const std::filesystem::path& file,
