@@ -5,25 +5,10 @@
 #include "drivers/recording/file_kind.hpp"
 
 namespace convexcut::recording {
-namespace {
-
-std::unique_ptr<capture::CaptureReader> open_capture(const std::filesystem::path& file) {
-  if (!is_capture(file)) return nullptr;
-  auto reader = std::make_unique<capture::CaptureReader>(file);
-  if (reader->link() != capture::LinkKind::can) {
-    throw capture::CaptureError(file.string() +
-                                ": expected a candump -L log or a capture of link type "
-                                "CAN_SOCKETCAN (227), found a capture of "
-                                "another kind");
-  }
-  return reader;
-}
-
-}  // namespace
-
 CanRecording::CanRecording(const std::filesystem::path& file, const can::CanImuOptions& options,
                            Sink<ImuSample>& sink)
-    : capture_(open_capture(file)),
+    : capture_(open_capture(file, capture::LinkKind::can,
+                            "a candump -L log or a capture of link type CAN_SOCKETCAN (227)")),
       log_(capture_ ? nullptr : std::make_unique<can::CandumpReader>(file)),
       tap_(sink),
       driver_(options, tap_) {}

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <string>
 
 namespace convexcut::recording {
 namespace {
@@ -26,6 +27,18 @@ bool is_capture(const std::filesystem::path& file) {
     return std::equal(magic.begin(), magic.end(), first.begin(),
                       [](unsigned char m, char c) { return m == static_cast<unsigned char>(c); });
   });
+}
+
+std::unique_ptr<capture::CaptureReader> open_capture(const std::filesystem::path& file,
+                                                     capture::LinkKind link,
+                                                     std::string_view expected) {
+  if (!is_capture(file)) return nullptr;
+  auto reader = std::make_unique<capture::CaptureReader>(file);
+  if (reader->link() != link) {
+    throw capture::CaptureError(file.string() + ": expected " + std::string(expected) +
+                                ", found a capture of another kind");
+  }
+  return reader;
 }
 
 std::uint64_t size_of(const std::filesystem::path& file) {

@@ -8,18 +8,6 @@
 namespace convexcut::recording {
 namespace {
 
-std::unique_ptr<capture::CaptureReader> open_capture(const std::filesystem::path& file) {
-  if (!is_capture(file)) return nullptr;
-  auto reader = std::make_unique<capture::CaptureReader>(file);
-  if (reader->link() != capture::LinkKind::serial) {
-    throw capture::CaptureError(file.string() +
-                                ": expected a serial recording (a capture of link type USER0, 147, "
-                                "or a raw .bin stream), found "
-                                "a capture of another kind");
-  }
-  return reader;
-}
-
 xsens::ImuDriverOptions with_start(xsens::ImuDriverOptions options, bool stamped, HostTime start) {
   if (!stamped) options.unstamped_start = start;
   return options;
@@ -31,7 +19,9 @@ ImuRecording::ImuRecording(const std::filesystem::path& file,
                            const xsens::ImuDriverOptions& options, HostTime unstamped_start,
                            Sink<ImuSample>& sink)
     : bytes_total_(size_of(file)),
-      capture_(open_capture(file)),
+      capture_(open_capture(
+          file, capture::LinkKind::serial,
+          "a serial recording (a capture of link type USER0, 147, or a raw .bin stream)")),
       raw_(capture_ ? nullptr : std::make_unique<capture::SerialLog>(file)),
       tap_(sink),
       driver_(with_start(options, stamped(), unstamped_start),
