@@ -6,8 +6,8 @@
 #include <ctime>
 #include <utility>
 
+#include "daemon/inputs/recorded_inputs.hpp"
 #include "daemon/log/log.hpp"
-#include "drivers/velodyne/model.hpp"
 
 namespace convexcut::daemon {
 namespace {
@@ -27,6 +27,12 @@ PipelineOptions live_pipeline_options(const config::Config& config) {
   return options;
 }
 
+std::unique_ptr<Inputs> make_inputs(const DaemonOptions& options, InputRings& rings,
+                                    const std::atomic<bool>& stop) {
+  return std::make_unique<RecordedInputs>(options.recordings, options.config, options.rate, rings,
+                                          stop);
+}
+
 constexpr auto kSupervision = std::chrono::milliseconds{20};
 constexpr auto kReportEvery = std::chrono::seconds{1};
 
@@ -34,15 +40,14 @@ constexpr auto kReportEvery = std::chrono::seconds{1};
 
 Daemon::Daemon(const DaemonOptions& options)
     : options_(options),
-      clock_(options.rate, stop_),
-      recordings_(options.recordings, options.config, lidar_sink_, imu_sink_),
-      worker_(live_pipeline_options(options.config), worker_options(options.config.worker), clock_,
-              lidar_ring_, imu_ring_, results_),
+      inputs_(make_inputs(options, rings_, stop_)),
+      worker_(live_pipeline_options(options.config), worker_options(options.config.worker),
+              inputs_->clock(), rings_.lidar, rings_.imu, results_),
       participant_(options.config.dds),
       scans_(participant_, options.config.dds,
-             std::chrono::milliseconds{options.config.worker.latency_ms}, clock_, results_,
-             [this](ScanStatus& status) { complete(status); }),
-      imus_(participant_, options.config.dds, imu_publish_ring_) {
+             std::chrono::milliseconds{options.config.worker.latency_ms}, inputs_->clock(),
+             results_, [this](ScanStatus& status) { complete(status); }),
+      imus_(participant_, options.config.dds, rings_.imu_publish) {
   reserve_slots(results_);
 }
 
@@ -54,11 +59,7 @@ Daemon::~Daemon() {
 }
 
 void Daemon::run() {
-  log::info("start", {{"lidar", options_.recordings.lidar.string()},
-                      {"imu", options_.recordings.imu.string()},
-                      {"can", options_.recordings.can.string()},
-                      {"rate", clock_.paced() ? std::to_string(options_.rate) : "max"},
-                      {"domain", options_.config.dds.domain}});
+  inputs_->log_start();
   wait_for_reader();
   if (!signalled()) {
     start_threads();
@@ -69,7 +70,7 @@ void Daemon::run() {
   threads_.clear();
   log_losses();
   log_end();
-  if (!signalled()) recordings_.check_content();
+  if (!signalled()) inputs_->check_content();
 }
 
 void Daemon::wait_for_reader() {
@@ -80,58 +81,19 @@ void Daemon::wait_for_reader() {
 }
 
 void Daemon::start_threads() {
-  clock_.start(recordings_.first_stamp());
-  if (clock_.paced()) {
-    const auto streams = recordings_.streams();
-    start_source(*streams.front(), lidar_ended_);
-    const bool imu = recordings_.imu() != nullptr;
-    if (imu) start_source(*streams[1], imu_ended_);
-    if (recordings_.can() != nullptr && !imu) start_source(*streams[1], imu_ended_);
-    if (streams.size() == 1) imu_ended_.store(true, std::memory_order_release);
-  } else {
-    start_merged_sources();
-  }
-  threads_.emplace_back([this] {
-    worker_.run(stop_, lidar_ended_, imu_ended_);
+  for (InputThread& thread : inputs_->start()) start_thread(std::move(thread.body));
+  start_thread([this] {
+    worker_.run(stop_, inputs_->lidar_ended(), inputs_->imu_ended());
     worker_done_.store(true, std::memory_order_release);  // pairs with ScanPublishing::run
   });
-  threads_.emplace_back([this] {
+  start_thread([this] {
     scans_.run(stop_, worker_done_);
     published_.store(true, std::memory_order_release);  // pairs with supervise()
   });
-  threads_.emplace_back([this] { imus_.run(stop_, imu_ended_); });
+  start_thread([this] { imus_.run(stop_, inputs_->imu_ended()); });
 }
 
-void Daemon::start_source(recording::RecordedStream& stream, std::atomic<bool>& ended) {
-  threads_.emplace_back([this, &stream, &ended] {
-    while (const auto stamp = stream.next_stamp()) {
-      clock_.wait_until(*stamp);
-      if (signalled()) break;
-      stream.deliver();
-    }
-    stream.finish();
-    ended.store(true, std::memory_order_release);  // pairs with Worker::run and ImuPublishing::run
-  });
-}
-
-void Daemon::start_merged_sources() {
-  threads_.emplace_back([this] {
-    // As fast as possible means: as fast as the rings are emptied. Nothing is lost.
-    const auto full = [](const auto& ring) { return ring.size_approx() + 8 > ring.capacity(); };
-    while (!signalled()) {
-      if (full(lidar_ring_) || full(imu_ring_) || full(imu_publish_ring_)) {
-        std::this_thread::sleep_for(std::chrono::microseconds{100});
-        continue;
-      }
-      const auto stamp = recordings_.step();
-      if (!stamp) break;
-      clock_.delivered(*stamp);
-    }
-    recordings_.finish();
-    lidar_ended_.store(true, std::memory_order_release);  // pairs with Worker::run
-    imu_ended_.store(true, std::memory_order_release);    // and ImuPublishing::run
-  });
-}
+void Daemon::start_thread(std::function<void()> body) { threads_.emplace_back(std::move(body)); }
 
 void Daemon::supervise() {
   auto next_report = std::chrono::steady_clock::now() + kReportEvery;
@@ -160,20 +122,11 @@ bool Daemon::pause(Duration span) {
 }
 
 void Daemon::complete(ScanStatus& status) const {
-  const velodyne::LidarCounters& lidar = recordings_.lidar_driver().counters();
+  const InputTotals totals = inputs_->totals();
   status.lost_packets_total = worker_.packets().lost.value();
-  status.rejected_packets_total =
-      lidar.foreign.value() + lidar.wrong_length.value() + lidar.wrong_block_flag.value() +
-      lidar.azimuth_out_of_range.value() + lidar.timestamp_out_of_range.value() +
-      lidar.no_sentence.value() + lidar.model_unknown.value();
-  status.lost_imu_samples_total = lost_imu_samples();
-  status.ring_overruns_total = lidar_ring_.overruns() + imu_ring_.overruns();
-}
-
-std::uint64_t Daemon::lost_imu_samples() const {
-  if (recordings_.imu() != nullptr) return recordings_.imu()->counters().lost_messages.value();
-  if (recordings_.can() != nullptr) return recordings_.can()->counters().lost_groups.value();
-  return 0;
+  status.rejected_packets_total = totals.rejected_lidar_packets;
+  status.lost_imu_samples_total = totals.lost_imu_samples;
+  status.ring_overruns_total = rings_.overruns();
 }
 
 void Daemon::log_losses() {
@@ -199,12 +152,10 @@ void Daemon::log_losses() {
 }
 
 void Daemon::log_end() const {
-  for (const std::string& warning : recordings_.warnings()) {
-    log::warning("recording", {{"problem", warning}});
-  }
-  const auto model = recordings_.lidar_driver().model();
-  log::info("end", {{"model", model ? velodyne::model_of(*model).name : "unknown"},
-                    {"packets", recordings_.lidar_driver().counters().data_packets.value()},
+  inputs_->log_end();
+  const InputTotals totals = inputs_->totals();
+  log::info("end", {{"model", totals.model},
+                    {"packets", totals.lidar_packets},
                     {"scans", scans_.counters().published.value()},
                     {"empty", worker_.counters().empty_results.value()},
                     {"late", scans_.counters().late.value()}});

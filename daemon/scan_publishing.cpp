@@ -20,7 +20,7 @@ constexpr int kLeadMemory = 8;
 }  // namespace
 
 ScanPublishing::ScanPublishing(const Participant& participant, const config::Dds& settings,
-                               Duration latency, const PlaybackClock& clock,
+                               Duration latency, const Clock& clock,
                                SpscRing<LevelledScan>& results,
                                std::function<void(ScanStatus&)> complete)
     : publisher_(participant, settings),

@@ -7,9 +7,9 @@
 #include "core/counter.hpp"
 #include "core/ring/spsc_ring.hpp"
 #include "core/scan/scan.hpp"
+#include "daemon/clock/clock.hpp"
 #include "daemon/dds/publisher.hpp"
 #include "daemon/dds/scan_status.hpp"
-#include "daemon/playback_clock.hpp"
 
 namespace convexcut::daemon {
 
@@ -26,7 +26,7 @@ class ScanPublishing {
  public:
   // `complete` fills in the totals of a status: what other parts of the daemon have counted.
   ScanPublishing(const Participant& participant, const config::Dds& settings, Duration latency,
-                 const PlaybackClock& clock, SpscRing<LevelledScan>& results,
+                 const Clock& clock, SpscRing<LevelledScan>& results,
                  std::function<void(ScanStatus&)> complete);
 
   // The thread's body: returns on stop, or when `worker_done` is set and the ring is empty.
@@ -43,7 +43,7 @@ class ScanPublishing {
   ScanPublisher publisher_;
   StatusPublisher status_publisher_;
   Duration latency_;
-  const PlaybackClock& clock_;
+  const Clock& clock_;
   SpscRing<LevelledScan>& results_;
   std::function<void(ScanStatus&)> complete_;
   PublishingCounters counters_;

@@ -26,7 +26,7 @@ constexpr Duration kSilence = std::chrono::milliseconds{300};
 
 }  // namespace
 
-Worker::Worker(const PipelineOptions& pipeline, const WorkerOptions& options, PlaybackClock& clock,
+Worker::Worker(const PipelineOptions& pipeline, const WorkerOptions& options, Clock& clock,
                SpscRing<ReturnBatch>& lidar, SpscRing<ImuSample>& imu,
                SpscRing<LevelledScan>& results)
     : options_(options),

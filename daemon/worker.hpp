@@ -11,8 +11,8 @@
 #include "core/return_batch.hpp"
 #include "core/ring/spsc_ring.hpp"
 #include "core/scan/scan.hpp"
+#include "daemon/clock/clock.hpp"
 #include "daemon/pipeline/pipeline.hpp"
-#include "daemon/playback_clock.hpp"
 
 namespace convexcut::daemon {
 
@@ -31,7 +31,7 @@ struct WorkerCounters {
 
 class Worker {
  public:
-  Worker(const PipelineOptions& pipeline, const WorkerOptions& options, PlaybackClock& clock,
+  Worker(const PipelineOptions& pipeline, const WorkerOptions& options, Clock& clock,
          SpscRing<ReturnBatch>& lidar, SpscRing<ImuSample>& imu, SpscRing<LevelledScan>& results);
 
   // The thread's body: returns when both inputs have ended and everything is handed on, or on stop.
@@ -54,7 +54,7 @@ class Worker {
   [[nodiscard]] HostTime next_tick(HostTime tick) const noexcept;
 
   WorkerOptions options_;
-  PlaybackClock& clock_;
+  Clock& clock_;
   SpscRing<ReturnBatch>& lidar_;
   SpscRing<ImuSample>& imu_;
   SpscRing<LevelledScan>& results_;

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "daemon/clock/playback_clock.hpp"
 #include "tests/core/scan/synthetic_lidar.hpp"
 
 namespace convexcut::daemon {
