@@ -44,9 +44,8 @@ Daemon::Daemon(const DaemonOptions& options)
       worker_(live_pipeline_options(options.config), worker_options(options.config.worker),
               inputs_->clock(), rings_.lidar, rings_.imu, results_),
       participant_(options.config.dds),
-      scans_(participant_, options.config.dds,
-             std::chrono::milliseconds{options.config.worker.latency_ms}, inputs_->clock(),
-             results_, [this](ScanStatus& status) { complete(status); }),
+      scans_(participant_, options.config.dds, inputs_->clock(), results_,
+             [this](ScanStatus& status) { complete(status); }),
       imus_(participant_, options.config.dds, rings_.imu_publish) {
   reserve_slots(results_);
 }

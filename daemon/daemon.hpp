@@ -10,12 +10,11 @@
 #include <vector>
 
 #include "config/config.hpp"
-#include "core/ring/spsc_ring.hpp"
-#include "core/scan/scan.hpp"
 #include "daemon/dds/participant.hpp"
 #include "daemon/imu_publishing.hpp"
 #include "daemon/inputs/input_rings.hpp"
 #include "daemon/inputs/inputs.hpp"
+#include "daemon/result.hpp"
 #include "daemon/scan_publishing.hpp"
 #include "daemon/sources/recordings.hpp"
 #include "daemon/worker.hpp"
@@ -63,7 +62,7 @@ class Daemon {
   std::atomic<bool> published_{false};
 
   InputRings rings_;
-  SpscRing<LevelledScan> results_{kResultSlots};
+  ResultRing results_{kResultSlots};
 
   std::unique_ptr<Inputs> inputs_;
   Worker worker_;

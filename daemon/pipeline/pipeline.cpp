@@ -88,11 +88,48 @@ bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
   static_cast<void>(engine_.label(out.cloud(), out.label));
   out.structure_points = 0;
   for (const Label label : out.label) out.structure_points += label == Label::structure ? 1U : 0U;
+  scan_period_ = period_after(scan);
+  pop_waiting();
+  return true;
+}
 
+std::size_t Pipeline::drop_superseded(HostTime now, HostTime oldest_end) noexcept {
+  std::size_t dropped = 0;
+  while (waiting_count_ > 0) {
+    const bool too_old = to_host(waiting_[first_waiting_].last_firing) < oldest_end;
+    const bool newer_ready =
+        waiting_count_ > 1 && ready(waiting_[(first_waiting_ + 1) % kMaxWaiting], now);
+    if (!too_old && !newer_ready) break;
+    pop_waiting();
+    ++dropped;
+  }
+  return dropped;
+}
+
+void Pipeline::restart_time() noexcept {
+  const auto drop = [this](Scan&) { ++scans_dropped_; };
+  sequencer_.flush([](const ReturnBatch&, LidarTime) {});
+  cutter_.finish(drop);
+  scans_dropped_ += waiting_count_;
+  waiting_count_ = first_waiting_ = 0;
+  hour_clock_.reset();
+  lidar_clock_.reset();
+  imu_clock_.reset();
+  imu_clock_steps_ = 0;
+  track_.clear();
+}
+
+Duration Pipeline::period_after(const Scan& scan) const noexcept {
+  if (scan.end != ScanEnd::cut) return Duration::zero();
+  if (options_.cut.mode == CutOptions::Mode::clock) return options_.cut.window;
+  if (scan.rotor_hz <= 0.0) return Duration::zero();
+  return Duration{static_cast<Duration::rep>(1e9 / scan.rotor_hz)};
+}
+
+void Pipeline::pop_waiting() noexcept {
   first_waiting_ = (first_waiting_ + 1) % kMaxWaiting;
   // An empty queue starts over, so that the same few scans' memory stays in use.
   if (--waiting_count_ == 0) first_waiting_ = 0;
-  return true;
 }
 
 HostTime Pipeline::to_host(LidarTime t) const noexcept {

@@ -63,14 +63,26 @@ class Pipeline {
   // In order of arrival.
   void on_lidar(const ReturnBatch& batch) noexcept;
   void on_imu(const ImuSample& sample) noexcept;
-  // No more will come: the last revolution is closed, waiting scans no longer wait for
-  // orientations.
+  // No more will come, or none for a while: the revolution at hand is closed. At the end of the
+  // IMU, waiting scans no longer wait for orientations.
   void end_of_lidar() noexcept;
   void end_of_imu() noexcept { imu_ended_ = true; }
 
   // Levels and labels the oldest scan into `out` if it is ready at `now`: its orientations are all
   // there, or will not come in time. False: none is ready.
   [[nodiscard]] bool next_scan(HostTime now, LevelledScan& out) noexcept;
+
+  // Drops the oldest scans as long as they ended before `oldest_end`, or as the one behind is ready
+  // as well; how many.
+  std::size_t drop_superseded(HostTime now, HostTime oldest_end) noexcept;
+
+  // The host's clock was set: nothing that is known of times holds any longer. The scan at hand and
+  // those that wait are dropped (and counted), all mappings start anew.
+  void restart_time() noexcept;
+
+  // From the end of the newest scan given by next_scan() to the expected end of the next; 0 when it
+  // did not end with a cut, or the rotor's speed is not known.
+  [[nodiscard]] Duration scan_period() const noexcept { return scan_period_; }
 
   // Scans that are cut but not yet ready.
   [[nodiscard]] std::size_t waiting() const noexcept { return waiting_count_; }
@@ -83,7 +95,7 @@ class Pipeline {
   [[nodiscard]] const PacketSequencer& sequencer() const noexcept { return sequencer_; }
   [[nodiscard]] double rotor_hz() const noexcept { return rotor_hz_; }
   [[nodiscard]] std::uint64_t scans_cut() const noexcept { return scans_cut_; }
-  // Scans that were dropped because too many waited (the caller never called next_scan).
+  // Scans that were dropped because too many waited, or the host's clock was set.
   [[nodiscard]] std::uint64_t scans_dropped() const noexcept { return scans_dropped_; }
   [[nodiscard]] std::uint64_t orientations_refused() const noexcept {
     return orientations_refused_;
@@ -93,6 +105,8 @@ class Pipeline {
  private:
   void wait_for_orientation(Scan& scan) noexcept;
   [[nodiscard]] bool ready(const Scan& scan, HostTime now) const noexcept;
+  [[nodiscard]] Duration period_after(const Scan& scan) const noexcept;
+  void pop_waiting() noexcept;
 
   PipelineOptions options_;
   HourClock hour_clock_;
@@ -111,6 +125,7 @@ class Pipeline {
   bool imu_ended_ = false;
   std::uint32_t imu_clock_steps_ = 0;
   double rotor_hz_ = 0.0;
+  Duration scan_period_{0};
   std::uint64_t scans_cut_ = 0;
   std::uint64_t scans_dropped_ = 0;
   std::uint64_t orientations_ = 0;
