@@ -6,6 +6,7 @@
 #include <ctime>
 #include <utility>
 
+#include "daemon/inputs/live_inputs.hpp"
 #include "daemon/inputs/recorded_inputs.hpp"
 #include "daemon/log/log.hpp"
 
@@ -29,6 +30,9 @@ PipelineOptions live_pipeline_options(const config::Config& config) {
 
 std::unique_ptr<Inputs> make_inputs(const DaemonOptions& options, InputRings& rings,
                                     const std::atomic<bool>& stop) {
+  if (options.recordings.lidar.empty()) {
+    return std::make_unique<LiveInputs>(options.config, rings, stop);
+  }
   return std::make_unique<RecordedInputs>(options.recordings, options.config, options.rate, rings,
                                           stop);
 }
@@ -59,6 +63,7 @@ Daemon::~Daemon() {
 
 void Daemon::run() {
   inputs_->log_start();
+  log::info("start", {{"domain", options_.config.dds.domain}});
   wait_for_reader();
   if (!signalled()) {
     start_threads();
@@ -101,6 +106,7 @@ void Daemon::supervise() {
     if (!pause(kSupervision)) return;
     if (std::chrono::steady_clock::now() >= next_report) {
       next_report += kReportEvery;
+      inputs_->log_changes();
       log_losses();
     }
   }

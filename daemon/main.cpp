@@ -47,6 +47,11 @@ int run(const Arguments& args) {
   options.config = args.config.load();
   options.rate = parse_rate(args.rate);
   options.recordings = args.recordings.paths;
+  if (options.recordings.lidar.empty() &&
+      !(options.recordings.imu.empty() && options.recordings.can.empty())) {
+    throw command_line::UsageError(
+        "expected --lidar FILE beside --imu or --can, or none of them to run live");
+  }
   options.wait_for_reader = Duration{static_cast<Duration::rep>(args.wait_for_reader_s * 1e9)};
   daemon::log::set_level(options.config.log.level);
   block_stop_signals();
@@ -62,7 +67,7 @@ int program(int argc, char** argv) {
       "convexcutd");
   root.set_version_flag("--version", "convexcutd " CONVEXCUT_VERSION);
   Arguments args;
-  args.recordings.add_to(root, true);
+  args.recordings.add_to(root, false);
   args.config.add_to(root);
   root.add_option("--rate", args.rate, "Recorded seconds per second, or max (default 1)")
       ->type_name("X|max");
@@ -71,8 +76,10 @@ int program(int argc, char** argv) {
       ->check(CLI::Range(0.0, 3600.0))
       ->type_name("SECONDS");
   root.footer(
+      "Without --lidar it runs live, on the sensors that the configuration names.\n"
       "Exit status: 0 done, 1 failed while running, 2 wrong usage or configuration.\n"
-      "Example:\n"
+      "Examples:\n"
+      "  convexcutd --set imu.device=/dev/ttyUSB0\n"
       "  convexcutd --lidar lidar.pcap --imu imu.pcap &\n"
       "  convexcut watch");
   return command_line::run_program(root, argc, argv, [&args] { return run(args); });

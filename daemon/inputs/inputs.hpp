@@ -47,8 +47,9 @@ class Inputs {
   // Any thread.
   [[nodiscard]] virtual InputTotals totals() const noexcept = 0;
 
-  // The `start` line of the log; what was odd on the way, at the end.
+  // What is taken as input, in the log; once a second, what has changed; at the end, what was odd.
   virtual void log_start() const = 0;
+  virtual void log_changes() {}
   virtual void log_end() const = 0;
   // After the end: throws std::runtime_error of one line when nothing of use came.
   virtual void check_content() const = 0;

@@ -73,7 +73,7 @@ InputTotals RecordedInputs::totals() const noexcept {
 }
 
 void RecordedInputs::log_start() const {
-  log::info("start", {{"lidar", paths_.lidar.string()},
+  log::info("input", {{"lidar", paths_.lidar.string()},
                       {"imu", paths_.imu.string()},
                       {"can", paths_.can.string()},
                       {"rate", clock_.paced() ? std::to_string(rate_) : "max"}});
