@@ -55,8 +55,8 @@ struct Imu {
   std::uint32_t baud = 115200;  // the line's rate: the time that the bytes of a frame take
   bool configure = false;       // false: whatever the device sends is taken, nothing is sent to it
   std::uint32_t rate_hz = 400;  // of the samples, where it is configured
-  std::uint32_t set_baud = 0;   // the line's rate after configuration; 0: as it is
-  bool scan_baud = false;       // whether other rates are tried when it does not answer
+  std::uint32_t set_baud = 460800;  // the line's rate after configuration; 0: as it is
+  bool scan_baud = false;           // whether other rates are tried when it does not answer
 };
 
 struct Can {

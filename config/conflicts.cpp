@@ -96,7 +96,8 @@ void check_imu_configuration(const Imu& imu, Conflicts& conflicts) {
     conflicts.add({"imu.rate_hz"}, "expected a divisor of " + std::to_string(kMaxImuRateHz) +
                                        ", found " + std::to_string(imu.rate_hz));
   }
-  const std::uint32_t line = imu.set_baud != 0 ? imu.set_baud : imu.baud;
+  const bool changed = imu.baud != 0 && imu.set_baud != 0;  // USB has no rate to change
+  const std::uint32_t line = changed ? imu.set_baud : imu.baud;
   const std::uint32_t needed = imu.rate_hz * kConfiguredMessageBytes * kBitsPerByte;
   if (imu.configure && line != 0 && needed > line) {
     conflicts.add({"imu.configure", "imu.rate_hz", "imu.baud", "imu.set_baud"},

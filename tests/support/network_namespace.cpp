@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/network_namespace.hpp"
 
-#include <cerrno>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 
 #include <sched.h>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "tests/support/in_child.hpp"
 
 namespace convexcut::test {
 namespace {
-
-constexpr int kPassed = 0;
-constexpr int kFailed = 1;
-constexpr int kNotAllowed = 77;
 
 bool enter_namespace() {
   const uid_t user = ::getuid();
@@ -31,22 +25,8 @@ bool enter_namespace() {
 }  // namespace
 
 void in_network_namespace(const std::function<void()>& body) {
-  std::fflush(nullptr);
-  const pid_t child = ::fork();
-  ASSERT_GE(child, 0) << std::strerror(errno);
-  if (child == 0) {
-    if (!enter_namespace()) ::_exit(kNotAllowed);
-    body();
-    std::fflush(nullptr);
-    ::_exit(::testing::Test::HasFailure() ? kFailed : kPassed);
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kNotAllowed) {
-    GTEST_SKIP() << "needs user and network namespaces and ip(8), which are not to be had here";
-  }
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == kPassed)
-      << "in the network namespace: wait status " << status;
+  in_child(enter_namespace,
+           "needs user and network namespaces and ip(8), which are not to be had here", body);
 }
 
 void ip(const std::string& arguments) {

@@ -8,9 +8,7 @@
 
 namespace convexcut::test {
 
-// Runs `body` in a child process with a network of its own: no interface but a `lo` that is down.
-// The child's failures are printed and fail the calling test. Where the system does not allow
-// namespaces the test is skipped, with the reason. Only from a process with one thread.
+// in_child() with a network of its own: no interface but a `lo` that is down.
 void in_network_namespace(const std::function<void()>& body);
 
 // Runs `ip ARGUMENTS` and fails the test when it fails.
