@@ -25,7 +25,11 @@ struct Lidar {
   LidarModel model = LidarModel::automatic;
   std::uint16_t data_port = 2368;
   std::uint16_t position_port = 8308;
-  std::string source_address;  // IPv4 address of the sensor, see parse_ipv4(); empty: any
+  std::string source_address;   // IPv4 address of the sensor, see parse_ipv4(); empty: any
+  std::string local_address;    // IPv4 address that is listened on; empty: all, and broadcasts
+  std::string multicast_group;  // IPv4 group that the sensor sends to; empty: none
+  std::string interface;        // network interface that is listened on; empty: any
+  std::int64_t receive_buffer_kib = 8192;
   double min_range_m = 0.5;
   double max_range_m = 100.0;
   Degrees cut_azimuth{0.0};
@@ -47,7 +51,12 @@ struct Imu {
   Degrees mount_pitch{0.0};
   Degrees mount_yaw{0.0};
   std::int64_t max_age_ms = 50;
+  std::string device;           // serial device of the live IMU; empty: none
   std::uint32_t baud = 115200;  // the line's rate: the time that the bytes of a frame take
+  bool configure = false;       // false: whatever the device sends is taken, nothing is sent to it
+  std::uint32_t rate_hz = 400;  // of the samples, where it is configured
+  std::uint32_t set_baud = 460800;  // the line's rate after configuration; 0: as it is
+  bool scan_baud = false;           // whether other rates are tried when it does not answer
 };
 
 struct Can {

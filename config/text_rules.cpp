@@ -68,4 +68,18 @@ std::optional<std::uint32_t> parse_ipv4(std::string_view text) noexcept {
 
 bool is_ipv4_or_empty(std::string_view text) noexcept { return text.empty() || parse_ipv4(text); }
 
+bool is_multicast_or_empty(std::string_view text) noexcept {
+  constexpr std::uint32_t kClassMask = 0xF0000000;
+  constexpr std::uint32_t kClassD = 0xE0000000;
+  const std::optional<std::uint32_t> address = parse_ipv4(text);
+  return text.empty() || (address && (*address & kClassMask) == kClassD);
+}
+
+bool is_interface_or_empty(std::string_view text) noexcept {
+  constexpr std::size_t kMaxInterfaceName = 15;  // IFNAMSIZ with its end
+  if (text == "." || text == "..") return false;
+  return text.size() <= kMaxInterfaceName && std::ranges::all_of(text, is_graphic) &&
+         text.find_first_of("/:") == std::string_view::npos;
+}
+
 }  // namespace convexcut::config

@@ -54,5 +54,23 @@ TEST(TextRules, Addresses) {
   EXPECT_TRUE(is_ipv4_or_empty(""));
 }
 
+TEST(TextRules, MulticastGroups) {
+  for (const char* good : {"", "224.0.0.0", "239.255.255.255"}) {
+    EXPECT_TRUE(is_multicast_or_empty(good)) << good;
+  }
+  for (const char* bad : {"223.255.255.255", "240.0.0.0", "255.255.255.255", "239.1.1"}) {
+    EXPECT_FALSE(is_multicast_or_empty(bad)) << bad;
+  }
+}
+
+TEST(TextRules, Interfaces) {
+  for (const char* good : {"", "eth0", "enp0s31f6.100", "fifteen-letters"}) {
+    EXPECT_TRUE(is_interface_or_empty(good)) << good;
+  }
+  for (const char* bad : {".", "..", "a/b", "eth0:1", "a b", "sixteen-letters-", "a\nb"}) {
+    EXPECT_FALSE(is_interface_or_empty(bad)) << bad;
+  }
+}
+
 }  // namespace
 }  // namespace convexcut::config
