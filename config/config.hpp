@@ -19,6 +19,7 @@ enum class DualReturn : std::uint8_t { farthest, last, strongest, both };
 enum class MountOrientation : std::uint8_t { imu, fixed };
 enum class Method : std::uint8_t { paper };
 enum class LogLevel : std::uint8_t { error, warning, info, debug };
+enum class Realtime : std::uint8_t { automatic, on, off };
 enum class Reliability : std::uint8_t { reliable, best_effort };
 
 struct Lidar {
@@ -96,6 +97,17 @@ struct Dds {
   std::int64_t max_blocking_ms = 50;
 };
 
+struct RealtimeSettings {
+  Realtime enabled = Realtime::automatic;
+  std::uint32_t receive_priority = 80;  // SCHED_FIFO, of the threads that receive
+  std::uint32_t worker_priority = 70;
+  std::uint32_t publish_priority = 60;
+  std::string receive_cpus;  // see parse_cpus(); empty: all
+  std::string worker_cpus;
+  std::string publish_cpus;
+  bool lock_memory = true;
+};
+
 struct Log {
   LogLevel level = LogLevel::info;
 };
@@ -107,6 +119,7 @@ struct Config {
   Can can;
   ConvexCut convex_cut;
   Worker worker;
+  RealtimeSettings realtime;
   Dds dds;
   Log log;
 };

@@ -116,6 +116,8 @@ std::vector<Conflict> find_conflicts(const Config& config) {
   Conflicts conflicts(config);
   conflicts.require_less("lidar.min_range_m", "lidar.max_range_m");
   conflicts.require_less("worker.latency_ms", "worker.period_ms");
+  conflicts.require_less("realtime.publish_priority", "realtime.worker_priority");
+  conflicts.require_less("realtime.worker_priority", "realtime.receive_priority");
   conflicts.require_different(
       std::array<std::string_view, 2>{"lidar.data_port", "lidar.position_port"});
   conflicts.require_different(kCanIds);

@@ -18,8 +18,11 @@ constexpr Text kGroup{"an IPv4 multicast group, 224.0.0.0 to 239.255.255.255, or
                       is_multicast_or_empty};
 constexpr Text kInterface{"a network interface like eth0, or nothing", is_interface_or_empty};
 
+constexpr Text kCpus{"CPU numbers and ranges like 0,2-3, or nothing", is_cpus_or_empty};
+
 constexpr Number kTurn{-360.0, 360.0};
 constexpr Integer kPort{1, 65535};
+constexpr Integer kPriority{1, 98};  // 99 is for the kernel's own threads
 constexpr Integer kCanId{0, 0x1FFFFFFF, Integer::Notation::hexadecimal};
 constexpr std::int64_t kHourInMicroseconds = 3'600'000'000;
 constexpr std::int64_t kLastDomain = 232;  // beyond it the ports of DDS do not fit 16 bits
@@ -31,6 +34,7 @@ constexpr std::array kSections{
     Section{"can", "The IMU on a CAN bus: identifiers of its messages."},
     Section{"convex_cut", "The extraction of structure."},
     Section{"worker", "The grid on which results are made and published."},
+    Section{"realtime", "How the threads are kept on time."},
     Section{"dds", "What is published, where and how."},
     Section{"log", "The log on standard error."},
 };
@@ -155,6 +159,27 @@ constexpr std::array kKeys{
     bind_key<&Config::worker, &Worker::latency_ms>(
         "worker.latency_ms", Integer{1, 1'000}, "ms",
         "Constant time from a scan's last firing to its publication."),
+
+    bind_key<&Config::realtime, &RealtimeSettings::enabled>(
+        "realtime.enabled", kChoice<Realtime>, "",
+        "Realtime scheduling: where it is permitted, on (or the start fails), or off."),
+    bind_key<&Config::realtime, &RealtimeSettings::receive_priority>(
+        "realtime.receive_priority", kPriority, "",
+        "SCHED_FIFO priority of the threads that receive."),
+    bind_key<&Config::realtime, &RealtimeSettings::worker_priority>(
+        "realtime.worker_priority", kPriority, "", "SCHED_FIFO priority of the worker."),
+    bind_key<&Config::realtime, &RealtimeSettings::publish_priority>(
+        "realtime.publish_priority", kPriority, "",
+        "SCHED_FIFO priority of the threads that publish."),
+    bind_key<&Config::realtime, &RealtimeSettings::receive_cpus>(
+        "realtime.receive_cpus", kCpus, "", "CPUs of the threads that receive; empty: all."),
+    bind_key<&Config::realtime, &RealtimeSettings::worker_cpus>("realtime.worker_cpus", kCpus, "",
+                                                                "CPUs of the worker; empty: all."),
+    bind_key<&Config::realtime, &RealtimeSettings::publish_cpus>(
+        "realtime.publish_cpus", kCpus, "", "CPUs of the threads that publish; empty: all."),
+    bind_key<&Config::realtime, &RealtimeSettings::lock_memory>(
+        "realtime.lock_memory", Boolean{}, "",
+        "Whether all memory is locked, so that no page of it has to be fetched again."),
 
     bind_key<&Config::dds, &Dds::domain>("dds.domain", Integer{0, kLastDomain}, "",
                                          "DDS domain: ROS_DOMAIN_ID of the subscribers."),

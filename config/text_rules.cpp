@@ -82,4 +82,29 @@ bool is_interface_or_empty(std::string_view text) noexcept {
          text.find_first_of("/:") == std::string_view::npos;
 }
 
+std::optional<CpuSet> parse_cpus(std::string_view text) noexcept {
+  CpuSet cpus;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const auto number = [&at, end, &cpus](std::size_t& value) {
+    const auto [next, error] = std::from_chars(at, end, value);
+    at = next;
+    return error == std::errc{} && value < cpus.size();
+  };
+  for (;;) {
+    std::size_t first = 0;
+    if (!number(first)) return std::nullopt;
+    std::size_t last = first;
+    if (at != end && *at == '-') {
+      ++at;
+      if (!number(last) || last < first) return std::nullopt;
+    }
+    for (std::size_t cpu = first; cpu <= last; ++cpu) cpus.set(cpu);
+    if (at == end) return cpus;
+    if (*at++ != ',') return std::nullopt;
+  }
+}
+
+bool is_cpus_or_empty(std::string_view text) noexcept { return text.empty() || parse_cpus(text); }
+
 }  // namespace convexcut::config

@@ -3,6 +3,7 @@
 // What texts in the configuration have to look like.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -29,5 +30,11 @@ namespace convexcut::config {
 
 // A Linux network interface: 1 … 15 characters without slash, colon or space, neither "." nor "..".
 [[nodiscard]] bool is_interface_or_empty(std::string_view text) noexcept;
+
+// CPU numbers and ranges of them, joined by commas, as taskset and systemd take them: "0,2-3" →
+// bits 0, 2 and 3. Numbers 0 … 1023 (the kernel's cpu_set_t), ranges that do not fall.
+using CpuSet = std::bitset<1024>;
+[[nodiscard]] std::optional<CpuSet> parse_cpus(std::string_view text) noexcept;
+[[nodiscard]] bool is_cpus_or_empty(std::string_view text) noexcept;
 
 }  // namespace convexcut::config

@@ -37,6 +37,15 @@ std::unique_ptr<Inputs> make_inputs(const DaemonOptions& options, InputRings& ri
                                           stop);
 }
 
+// A worker that is never paced would take a CPU for itself.
+config::RealtimeSettings realtime_settings(const DaemonOptions& options) {
+  config::RealtimeSettings settings = options.config.realtime;
+  if (!options.recordings.lidar.empty() && options.rate == 0.0) {
+    settings.enabled = config::Realtime::off;
+  }
+  return settings;
+}
+
 constexpr auto kSupervision = std::chrono::milliseconds{20};
 constexpr auto kReportEvery = std::chrono::seconds{1};
 
@@ -44,9 +53,14 @@ constexpr auto kReportEvery = std::chrono::seconds{1};
 
 Daemon::Daemon(const DaemonOptions& options)
     : options_(options),
+      realtime_(realtime_settings(options)),
       inputs_(make_inputs(options, rings_, stop_)),
-      worker_(live_pipeline_options(options.config), worker_options(options.config.worker),
-              inputs_->clock(), rings_.lidar, rings_.imu, results_),
+      worker_(realtime_.as(ThreadRole::worker,
+                           [&] {
+                             return Worker(live_pipeline_options(options.config),
+                                           worker_options(options.config.worker), inputs_->clock(),
+                                           rings_.lidar, rings_.imu, results_);
+                           })),
       participant_(options.config.dds),
       scans_(participant_, options.config.dds, inputs_->clock(), results_,
              [this](ScanStatus& status) { complete(status); }),
@@ -63,13 +77,18 @@ Daemon::~Daemon() {
 
 void Daemon::run() {
   inputs_->log_start();
-  log::info("start", {{"domain", options_.config.dds.domain}});
+  for (const std::string& problem : realtime_.problems()) {
+    log::warning("realtime", {{"problem", problem}});
+  }
+  log::info("start", {{"domain", options_.config.dds.domain},
+                      {"scheduling", realtime_.scheduled() ? "fifo" : "normal"},
+                      {"memory", realtime_.memory_locked() ? "locked" : "normal"}});
   wait_for_reader();
   if (!signalled()) {
     start_threads();
     supervise();
   }
-  stop_.store(signalled(), std::memory_order_relaxed);
+  log_threads();
   for (std::thread& thread : threads_) thread.join();
   threads_.clear();
   log_losses();
@@ -85,27 +104,39 @@ void Daemon::wait_for_reader() {
 }
 
 void Daemon::start_threads() {
-  for (InputThread& thread : inputs_->start()) start_thread(std::move(thread.body));
-  start_thread([this] {
+  for (InputThread& thread : inputs_->start()) {
+    start_thread(thread.name, thread.role, std::move(thread.body));
+  }
+  start_thread("worker", ThreadRole::worker, [this] {
     worker_.run(stop_, inputs_->lidar_ended(), inputs_->imu_ended());
     worker_done_.store(true, std::memory_order_release);  // pairs with ScanPublishing::run
   });
-  start_thread([this] {
+  start_thread("publish", ThreadRole::publish, [this] {
     scans_.run(stop_, worker_done_);
     published_.store(true, std::memory_order_release);  // pairs with supervise()
   });
-  start_thread([this] { imus_.run(stop_, inputs_->imu_ended()); });
+  start_thread("publish_imu", ThreadRole::publish,
+               [this] { imus_.run(stop_, inputs_->imu_ended()); });
 }
 
-void Daemon::start_thread(std::function<void()> body) { threads_.emplace_back(std::move(body)); }
+void Daemon::start_thread(const char* name, ThreadRole role, std::function<void()> body) {
+  threads_.emplace_back([this, name, role, body = std::move(body)] {
+    realtime_.enter(role, name);
+    register_.enter(name, role);
+    body();
+    ThreadRegister::leave();
+  });
+}
 
 void Daemon::supervise() {
   auto next_report = std::chrono::steady_clock::now() + kReportEvery;
+  bool steady = false;
   // Acquire: pairs with the release store when the last result has been written.
   while (!published_.load(std::memory_order_acquire)) {
     if (!pause(kSupervision)) return;
     if (std::chrono::steady_clock::now() >= next_report) {
       next_report += kReportEvery;
+      if (!std::exchange(steady, true)) register_.mark_steady();
       inputs_->log_changes();
       log_losses();
     }
@@ -154,6 +185,16 @@ void Daemon::log_losses() {
                           {"late_scans", scans_.counters().late.value()},
                           {"dropped_scans", worker.dropped_scans.value()},
                           {"publish_timeouts", scans_.counters().timed_out.value()}});
+}
+
+void Daemon::log_threads() {
+  for (const ThreadFigures& thread : register_.figures()) {
+    log::info("thread", {{"name", thread.name},
+                         {"allocations", thread.allocations},
+                         {"minor_faults", thread.minor_faults},
+                         {"major_faults", thread.major_faults},
+                         {"cpu_ms", thread.cpu_time / std::chrono::milliseconds{1}}});
+  }
 }
 
 void Daemon::log_end() const {

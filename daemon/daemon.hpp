@@ -14,6 +14,8 @@
 #include "daemon/imu_publishing.hpp"
 #include "daemon/inputs/input_rings.hpp"
 #include "daemon/inputs/inputs.hpp"
+#include "daemon/realtime/realtime.hpp"
+#include "daemon/realtime/thread_figures.hpp"
 #include "daemon/result.hpp"
 #include "daemon/scan_publishing.hpp"
 #include "daemon/sources/recordings.hpp"
@@ -45,17 +47,20 @@ class Daemon {
 
   void wait_for_reader();
   void start_threads();
-  void start_thread(std::function<void()> body);
+  void start_thread(const char* name, ThreadRole role, std::function<void()> body);
   // Returns when the work is done or a signal has come; logs what went wrong meanwhile.
   void supervise();
   // False when a signal came within `span`.
   bool pause(Duration span);
   void log_losses();
+  void log_threads();
   void log_end() const;
   void complete(ScanStatus& status) const;
   [[nodiscard]] bool signalled() const noexcept { return stop_.load(std::memory_order_relaxed); }
 
   DaemonOptions options_;
+  Realtime realtime_;  // before anything that starts threads
+  ThreadRegister register_;
   std::atomic<bool> stop_{false};
   // Release stores when a thread is done; acquire loads in what waits for it.
   std::atomic<bool> worker_done_{false};

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "daemon/clock/clock.hpp"
+#include "daemon/realtime/thread_role.hpp"
 
 namespace convexcut::daemon {
 
 // A thread that an input needs. The body returns at the end of the input, or soon after a stop.
 struct InputThread {
-  const char* name = "";  // up to 15 characters
+  const char* name = "";  // up to 15 characters, outlives the thread
+  ThreadRole role = ThreadRole::other;
   std::function<void()> body;
 };
 

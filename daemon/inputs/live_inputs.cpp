@@ -24,7 +24,7 @@ std::vector<InputThread> LiveInputs::start() {
   bool has_imu = false;
   for (const LiveSources::Entry& entry : sources_.entries()) {
     has_imu = has_imu || entry.role == SourceRole::imu;
-    threads.push_back({entry.name.data(), [this, &source = entry.source] {
+    threads.push_back({entry.name.data(), ThreadRole::receive, [this, &source = entry.source] {
                          // Relaxed: the flag only ends the loop, it publishes nothing.
                          while (!stop_.load(std::memory_order_relaxed)) {
                            source.receive(kLongestWait);

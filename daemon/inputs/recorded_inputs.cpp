@@ -21,16 +21,17 @@ RecordedInputs::RecordedInputs(const RecordingPaths& paths, const config::Config
 
 std::vector<InputThread> RecordedInputs::start() {
   clock_.start(recordings_.first_stamp());
-  if (!clock_.paced()) return {{"play", [this] { play_merged(); }}};
+  if (!clock_.paced()) return {{"play", ThreadRole::other, [this] { play_merged(); }}};
   const auto streams = recordings_.streams();
   std::vector<InputThread> threads;
-  threads.push_back(
-      {"play_lidar", [this, lidar = streams.front()] { play(*lidar, &lidar_ended_); }});
+  threads.push_back({"play_lidar", ThreadRole::other,
+                     [this, lidar = streams.front()] { play(*lidar, &lidar_ended_); }});
   if (streams.size() == 1) imu_ended_.store(true, std::memory_order_release);
   // The first of the others is what orientation is taken from; a second is decoded only.
   for (std::size_t i = 1; i < streams.size(); ++i) {
     std::atomic<bool>* ended = i == 1 ? &imu_ended_ : nullptr;
-    threads.push_back({"play_imu", [this, stream = streams[i], ended] { play(*stream, ended); }});
+    threads.push_back({"play_imu", ThreadRole::other,
+                       [this, stream = streams[i], ended] { play(*stream, ended); }});
   }
   return threads;
 }

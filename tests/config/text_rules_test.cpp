@@ -72,5 +72,19 @@ TEST(TextRules, Interfaces) {
   }
 }
 
+TEST(TextRules, Cpus) {
+  EXPECT_EQ(parse_cpus("0"), CpuSet{0b1});
+  EXPECT_EQ(parse_cpus("1,3-5"), CpuSet{0b111010});
+  EXPECT_EQ(parse_cpus("2-2"), CpuSet{0b100});
+  EXPECT_TRUE(parse_cpus("1023").value().test(1023));
+  for (const char* bad :
+       {",", "1,", ",1", "1-", "-1", "3-1", "1024", "a", "1 ,2", "1-2-3", "0x1"}) {
+    EXPECT_EQ(parse_cpus(bad), std::nullopt) << bad;
+    EXPECT_FALSE(is_cpus_or_empty(bad)) << bad;
+  }
+  EXPECT_EQ(parse_cpus(""), std::nullopt);
+  EXPECT_TRUE(is_cpus_or_empty(""));
+}
+
 }  // namespace
 }  // namespace convexcut::config
