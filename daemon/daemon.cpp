@@ -25,6 +25,11 @@ PipelineOptions live_pipeline_options(const config::Config& config) {
   options.orientation_wait =
       std::min(options.orientation_wait,
                Duration{std::chrono::milliseconds{config.worker.latency_ms}} * 2 / 5);
+  // Memory is locked: what only dual returns need is not taken without them.
+  if (options.cut.echoes != CutOptions::Echoes::both &&
+      options.cut.mode == CutOptions::Mode::revolution) {
+    options.max_returns_per_scan = kMostSingleReturnsPerScan;
+  }
   return options;
 }
 
@@ -65,7 +70,7 @@ Daemon::Daemon(const DaemonOptions& options)
       scans_(participant_, options.config.dds, inputs_->clock(), results_,
              [this](ScanStatus& status) { complete(status); }),
       imus_(participant_, options.config.dds, rings_.imu_publish) {
-  reserve_slots(results_);
+  reserve_slots(results_, live_pipeline_options(options.config).max_returns_per_scan);
 }
 
 Daemon::~Daemon() {

@@ -21,6 +21,6 @@ using ResultRing = SpscRing<Result>;
 
 // Gives every slot of the ring its memory, so that the worker never allocates. Before the threads
 // start.
-void reserve_slots(ResultRing& results);
+void reserve_slots(ResultRing& results, std::size_t max_points);
 
 }  // namespace convexcut::daemon

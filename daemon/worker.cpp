@@ -173,10 +173,10 @@ unsigned Worker::hand_over_all(HostTime now) noexcept {
   }
 }
 
-void reserve_slots(ResultRing& results) {
+void reserve_slots(ResultRing& results, std::size_t max_points) {
   for (std::size_t i = 0; i < results.capacity(); ++i) {
     Result* slot = results.claim();
-    reserve(slot->scan, Pipeline::kMaxReturnsPerScan);
+    reserve(slot->scan, max_points);
     results.commit();
   }
   results.consume([](Result&) noexcept {});

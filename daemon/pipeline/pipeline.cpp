@@ -17,10 +17,10 @@ constexpr std::size_t kOrientations = 1024;
 
 Pipeline::Pipeline(const PipelineOptions& options)
     : options_(options),
-      cutter_(options.cut, kMaxReturnsPerScan, kMaxFiringsPerScan),
+      cutter_(options.cut, options.max_returns_per_scan, kMaxFiringsPerScan),
       track_(kOrientations, options.orientation_max_age),
-      engine_(options.convex_cut, kMaxReturnsPerScan, options.threads) {
-  for (Scan& scan : waiting_) reserve(scan, kMaxReturnsPerScan, kMaxFiringsPerScan);
+      engine_(options.convex_cut, options.max_returns_per_scan, options.threads) {
+  for (Scan& scan : waiting_) reserve(scan, options.max_returns_per_scan, kMaxFiringsPerScan);
 }
 
 void Pipeline::on_lidar(const ReturnBatch& batch) noexcept {

@@ -34,10 +34,17 @@ enum class LidarTimeSource : std::uint8_t {
   pps,       // the sensor's own UTC: PPS locked, and not at odds with the host's clock
 };
 
+// One revolution at 5 Hz, the slowest of these sensors, with both echoes of every firing: 4340
+// firings × 32 lasers × 2; and half of it, where one echo is taken.
+inline constexpr std::size_t kMostReturnsPerScan = 280'000;
+inline constexpr std::size_t kMostSingleReturnsPerScan = kMostReturnsPerScan / 2;
+
 struct PipelineOptions {
   CutOptions cut;
   ConvexCutParameters convex_cut;
   unsigned threads = 1;
+  // What a scan has beyond it is dropped and counted in overflow_returns.
+  std::size_t max_returns_per_scan = kMostReturnsPerScan;
   bool fixed_mount = false;
   Quaternion q_level_from_lidar = Quaternion::Identity();  // of the fixed mount
   Quaternion q_imu_from_lidar = Quaternion::Identity();
@@ -51,8 +58,7 @@ struct PipelineOptions {
 
 class Pipeline {
  public:
-  // One revolution at 5 Hz with both echoes of every firing: 4340 firings × 32 lasers × 2.
-  static constexpr std::size_t kMaxReturnsPerScan = 280'000;
+  static constexpr std::size_t kMaxReturnsPerScan = kMostReturnsPerScan;
   static constexpr std::size_t kMaxFiringsPerScan = 8'800;
 
   // How many cut scans can wait for their orientations.

@@ -34,7 +34,7 @@ class WorkerTest : public ::testing::Test {
   static constexpr double kAsFastAsPossible = 0.0;
 
   WorkerTest() {
-    reserve_slots(results);
+    reserve_slots(results, Pipeline::kMaxReturnsPerScan);
     synthetic.start = LidarTime{};
     synthetic.returns_per_firing = 2;
     clock.start(kStart);
