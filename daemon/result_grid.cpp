@@ -4,15 +4,15 @@
 namespace convexcut::daemon {
 namespace {
 
-// Of a period, in percent.
-constexpr int kShortest = 89;
-constexpr int kLongest = 111;
+// Of a period, in percent: 11.1 and 8.85 Hz for one of 100 ms.
+constexpr int kShortest = 90;
+constexpr int kLongest = 113;
 
 }  // namespace
 
 void ResultGrid::start(HostTime now) noexcept {
   instant_ = now + period_;
-  locked_ = false;
+  locked_ = had_scan_ = false;
 }
 
 HostTime ResultGrid::oldest_end() const noexcept {
@@ -20,19 +20,23 @@ HostTime ResultGrid::oldest_end() const noexcept {
 }
 
 void ResultGrid::advance_with_scan(HostTime last_firing, Duration scan_period) noexcept {
+  const bool was_free = !locked_ && had_scan_;
   locked_ = follows(scan_period);
+  had_scan_ = true;
   if (!locked_) {
     instant_ += period_;
     return;
   }
+  // The first end of a scan after this instant. Where the grid ran freely beside a sensor, the one
+  // that is nearest to a period away: locking shall not add results.
+  const HostTime after = was_free ? instant_ + period_ / 2 : instant_;
   HostTime next = last_firing + scan_period;
-  // A scan that is older than its instant (the grid was free until now, or the scan was late).
-  if (next <= instant_) next += ((instant_ - next) / scan_period + 1) * scan_period;
+  if (next <= after) next += ((after - next) / scan_period + 1) * scan_period;
   instant_ = next;
 }
 
 void ResultGrid::advance() noexcept {
-  locked_ = false;
+  locked_ = had_scan_ = false;
   instant_ += period_;
 }
 

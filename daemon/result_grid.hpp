@@ -8,7 +8,7 @@
 namespace convexcut::daemon {
 
 // The instants of the worker's results: each has exactly one, a scan or an empty one. The grid is
-// locked to the sensor while scans end at nearly its own period (0.89 … 1.11 of it: a rotor of 9 to
+// locked to the sensor while scans end at nearly its own period (0.90 … 1.13 of it: a rotor of 9 to
 // 11 Hz, and measurement error): an instant then is the expected last firing of a scan. Otherwise
 // it runs on freely at its period, without drift. Design note: docs/design/realtime.md.
 //
@@ -43,6 +43,7 @@ class ResultGrid {
   Duration period_;
   HostTime instant_{};
   bool locked_ = false;
+  bool had_scan_ = false;  // the instant before
 };
 
 }  // namespace convexcut::daemon

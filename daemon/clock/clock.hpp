@@ -42,9 +42,11 @@ class Clock {
   // Waits for a span of this clock's time (of real time when it is not paced).
   void pause(Duration span) const noexcept;
 
- private:
-  void sleep_until(Steady::time_point time) const noexcept;
+ protected:
+  // All waiting ends in this. A clock of tests lets time pass here.
+  virtual void sleep_until(Steady::time_point time) const noexcept;
 
+ private:
   const std::atomic<bool>& stop_;
 };
 
