@@ -27,6 +27,7 @@ class ImuPublishing {
   ImuPublisher publisher_;
   SpscRing<ImuSample>& samples_;
   ClockMapping<ImuTime> clock_;
+  HostTime newest_arrival_{};
 };
 
 }  // namespace convexcut::daemon
