@@ -1,30 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // convexcutd: the daemon. See `convexcutd --help`.
-#include <charconv>
-#include <cmath>
 #include <csignal>
 
 #include "daemon/command_line/arguments.hpp"
+#include "daemon/command_line/rate.hpp"
 #include "daemon/daemon.hpp"
 #include "daemon/log/log.hpp"
 
 namespace {
 
 using namespace convexcut;
-
-// "max" → 0, which is how the clock spells it.
-double parse_rate(const std::string& text) {
-  if (text == "max") return 0.0;
-  double rate = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rate);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(rate) ||
-      rate <= 0.0) {
-    throw command_line::UsageError("--rate: expected a number above 0 or max, found \"" + text +
-                                   "\"");
-  }
-  return rate;
-}
 
 // Every thread inherits this: only Daemon::run() takes the signals, by asking for them.
 void block_stop_signals() {
@@ -45,7 +31,7 @@ struct Arguments {
 int run(const Arguments& args) {
   daemon::DaemonOptions options;
   options.config = args.config.load();
-  options.rate = parse_rate(args.rate);
+  options.rate = command_line::parse_rate(args.rate);
   options.recordings = args.recordings.paths;
   if (options.recordings.lidar.empty() &&
       !(options.recordings.imu.empty() && options.recordings.can.empty())) {
