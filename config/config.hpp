@@ -83,6 +83,7 @@ struct ConvexCut {
 struct Worker {
   std::int64_t period_ms = 100;
   std::int64_t latency_ms = 10;
+  bool reduce_effort = true;
 };
 
 struct Dds {

@@ -159,6 +159,9 @@ constexpr std::array kKeys{
     bind_key<&Config::worker, &Worker::latency_ms>(
         "worker.latency_ms", Integer{1, 1'000}, "ms",
         "Constant time from a scan's last firing to its publication."),
+    bind_key<&Config::worker, &Worker::reduce_effort>(
+        "worker.reduce_effort", Boolean{}, "",
+        "Whether less is computed (fewer planes, then fewer points) when results would be late."),
 
     bind_key<&Config::realtime, &RealtimeSettings::enabled>(
         "realtime.enabled", kChoice<Realtime>, "",

@@ -15,7 +15,7 @@ namespace {
 
 WorkerOptions worker_options(const config::Worker& settings) {
   return {std::chrono::milliseconds{settings.period_ms},
-          std::chrono::milliseconds{settings.latency_ms}};
+          std::chrono::milliseconds{settings.latency_ms}, settings.reduce_effort};
 }
 
 // In the daemon a scan waits for its last orientations no longer than the latency allows: three
@@ -94,6 +94,7 @@ void Daemon::run() {
     supervise();
   }
   log_threads();
+  log_timing();
   for (std::thread& thread : threads_) thread.join();
   threads_.clear();
   log_losses();
@@ -109,6 +110,7 @@ void Daemon::wait_for_reader() {
 }
 
 void Daemon::start_threads() {
+  started_ = std::chrono::steady_clock::now();
   for (InputThread& thread : inputs_->start()) {
     start_thread(thread.name, thread.role, std::move(thread.body));
   }
@@ -168,6 +170,7 @@ void Daemon::complete(ScanStatus& status) const {
   status.rejected_packets_total = totals.rejected_lidar_packets;
   status.lost_imu_samples_total = totals.lost_imu_samples;
   status.ring_overruns_total = rings_.overruns();
+  status.reduced_scans_total = worker_.counters().reduced_scans.value();
 }
 
 void Daemon::log_losses() {
@@ -178,6 +181,8 @@ void Daemon::log_losses() {
       totals.lost_packets_total + totals.rejected_packets_total + totals.lost_imu_samples_total +
       totals.ring_overruns_total + scans_.counters().late.value() +
       scans_.counters().timed_out.value() + worker.dropped_scans.value() +
+      worker.superseded_scans.value() + worker.dropped_results.value() +
+      worker.missed_instants.value() + worker.reduced_scans.value() + worker.clock_steps.value() +
       worker_.packets().late.value() + worker.dropped_no_orientation.value();
   if (losses == reported_losses_) return;
   reported_losses_ = losses;
@@ -189,6 +194,11 @@ void Daemon::log_losses() {
                           {"points_without_orientation", worker.dropped_no_orientation.value()},
                           {"late_scans", scans_.counters().late.value()},
                           {"dropped_scans", worker.dropped_scans.value()},
+                          {"superseded_scans", worker.superseded_scans.value()},
+                          {"dropped_results", worker.dropped_results.value()},
+                          {"missed_instants", worker.missed_instants.value()},
+                          {"reduced_scans", worker.reduced_scans.value()},
+                          {"clock_steps", worker.clock_steps.value()},
                           {"publish_timeouts", scans_.counters().timed_out.value()}});
 }
 
@@ -202,11 +212,34 @@ void Daemon::log_threads() {
   }
 }
 
+void Daemon::log_timing() const {
+  const LatencyHistogram& jitter = scans_.jitter();
+  const LatencyHistogram& compute = worker_.compute_time();
+  const auto us = [](Duration span) { return span / std::chrono::microseconds{1}; };
+  const Duration run = std::chrono::steady_clock::now() - started_;
+  log::info("timing", {{"run_ms", run / std::chrono::milliseconds{1}},
+                       {"results", scans_.counters().published.value()},
+                       {"late", scans_.counters().late.value()},
+                       {"jitter_p50_us", us(jitter.percentile(50.0))},
+                       {"jitter_p99_us", us(jitter.percentile(99.0))},
+                       {"jitter_p999_us", us(jitter.percentile(99.9))},
+                       {"jitter_max_us", us(jitter.max())},
+                       {"compute_p50_us", us(compute.percentile(50.0))},
+                       {"compute_p99_us", us(compute.percentile(99.0))},
+                       {"compute_max_us", us(compute.max())},
+                       {"reduced_scans", worker_.counters().reduced_scans.value()}});
+}
+
 void Daemon::log_end() const {
   inputs_->log_end();
   const InputTotals totals = inputs_->totals();
   log::info("end", {{"model", totals.model},
                     {"packets", totals.lidar_packets},
+                    {"lost_packets", worker_.packets().lost.value()},
+                    {"kernel_drops", totals.kernel_drops},
+                    {"ring_overruns", rings_.overruns()},
+                    {"imu_samples", totals.imu_samples},
+                    {"lost_imu_samples", totals.lost_imu_samples},
                     {"scans", scans_.counters().published.value()},
                     {"empty", worker_.counters().empty_results.value()},
                     {"late", scans_.counters().late.value()}});

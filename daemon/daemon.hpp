@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -54,6 +55,7 @@ class Daemon {
   bool pause(Duration span);
   void log_losses();
   void log_threads();
+  void log_timing() const;
   void log_end() const;
   void complete(ScanStatus& status) const;
   [[nodiscard]] bool signalled() const noexcept { return stop_.load(std::memory_order_relaxed); }
@@ -75,6 +77,7 @@ class Daemon {
   ScanPublishing scans_;
   ImuPublishing imus_;
   std::vector<std::thread> threads_;
+  std::chrono::steady_clock::time_point started_{};
   std::uint64_t reported_losses_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include "core/ring/spsc_ring.hpp"
 #include "core/scan/scan.hpp"
 #include "daemon/clock/clock.hpp"
+#include "daemon/pipeline/effort.hpp"
 
 namespace convexcut::daemon {
 
@@ -15,6 +16,7 @@ struct Result {
   // When the write of it shall return. On CLOCK_MONOTONIC, so that a step of the host's clock does
   // not reach what is already decided. Not used when time is not paced.
   Clock::Steady::time_point due{};
+  Effort effort = Effort::full;  // that its labels were computed with
 };
 
 using ResultRing = SpscRing<Result>;

@@ -50,9 +50,10 @@ void ScanPublishing::publish(const Result& result) {
   const LevelledScan& scan = result.scan;
   const bool late =
       clock_.paced() && scan.end != ScanEnd::no_data && Clock::Steady::now() > result.due;
+  publisher_.prepare_structure(scan);
   clock_.wait_until(result.due - lead_);
   const auto begun = Clock::Steady::now();
-  const PublishStatus structure = publisher_.publish_structure(scan);
+  const PublishStatus structure = publisher_.publish_prepared_structure();
   const auto written = Clock::Steady::now();
   lead_ += (std::min<Duration>(written - begun, kLongestLead) - lead_) / kLeadMemory;
   if (clock_.paced() && !late && structure == PublishStatus::sent) {
@@ -81,6 +82,7 @@ void ScanPublishing::publish(const Result& result) {
   status.latency = latency;
   status.late_scans_total = counters_.late.value();
   status.publish_timeouts_total = counters_.timed_out.value();
+  status.effort = static_cast<std::uint8_t>(result.effort);
   complete_(status);
   status_publisher_.publish(status);
 }

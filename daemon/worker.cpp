@@ -144,15 +144,31 @@ HostTime Worker::give_up() const noexcept {
 }
 
 bool Worker::hand_over(HostTime now, Result& slot) noexcept {
+  const auto begun = Clock::Steady::now();
   if (!pipeline_.next_scan(now, slot.scan)) return false;
+  const Duration used = Clock::Steady::now() - begun;
+  compute_time_.record(used);
+  slot.effort = effort_.effort();
+  if (slot.effort != Effort::full) counters_.reduced_scans.add();
+  if (clock_.paced() && options_.reduce_effort) adapt_effort(used, now, slot.scan.last_firing);
   slot.scan.index = next_index_++;
   counters_.scans.add();
   counters_.dropped_no_orientation.add(slot.scan.dropped_no_orientation);
   return true;
 }
 
+// A scan has the time from when it could be begun until it is due; when its data came late, no less
+// than it has after waiting for its last orientation as long as it may (see Daemon): less work
+// would not have helped.
+void Worker::adapt_effort(Duration used, HostTime begun, HostTime last_firing) noexcept {
+  const Duration until_due = last_firing + options_.latency - begun;
+  effort_.observe(used, std::max(until_due, options_.latency / 2));
+  pipeline_.set_effort(effort_.effort());
+}
+
 void Worker::hand_over_empty(Result& slot) noexcept {
   slot.scan.clear();
+  slot.effort = Effort::full;
   slot.scan.index = next_index_++;
   slot.scan.end = ScanEnd::no_data;
   slot.scan.stamp = grid_.instant() - options_.period;

@@ -8,10 +8,12 @@
 #include <cstdint>
 
 #include "core/counter.hpp"
+#include "core/histogram.hpp"
 #include "core/imu_sample.hpp"
 #include "core/return_batch.hpp"
 #include "core/ring/spsc_ring.hpp"
 #include "daemon/clock/clock.hpp"
+#include "daemon/effort_policy.hpp"
 #include "daemon/pipeline/pipeline.hpp"
 #include "daemon/result.hpp"
 #include "daemon/result_grid.hpp"
@@ -21,6 +23,7 @@ namespace convexcut::daemon {
 struct WorkerOptions {
   Duration period = std::chrono::milliseconds{100};
   Duration latency = std::chrono::milliseconds{10};  // from a scan's last firing to its publication
+  bool reduce_effort = true;  // when results would be late; never while time is not paced
 };
 
 // What the worker saw, for the status topic and the log. Written by the worker only.
@@ -31,6 +34,7 @@ struct WorkerCounters {
   Counter dropped_scans;           // too many waited
   Counter dropped_results;         // the publisher was not keeping up
   Counter missed_instants;         // the worker was not keeping up
+  Counter reduced_scans;           // computed with less than full effort
   Counter dropped_no_orientation;  // points
   Counter clock_steps;             // the host's clock was set
   Counter dropped_by_clock_step;   // packets and samples that were stamped before it
@@ -49,6 +53,8 @@ class Worker {
 
   // Any thread.
   [[nodiscard]] const WorkerCounters& counters() const noexcept { return counters_; }
+  // How long levelling and cutting took, each scan.
+  [[nodiscard]] const LatencyHistogram& compute_time() const noexcept { return compute_time_; }
   [[nodiscard]] const SequencerCounters& packets() const noexcept {
     return pipeline_.sequencer().counters();
   }
@@ -65,6 +71,7 @@ class Worker {
   [[nodiscard]] HostTime give_up() const noexcept;
   // Hands over the oldest scan if it is ready.
   [[nodiscard]] bool hand_over(HostTime now, Result& slot) noexcept;
+  void adapt_effort(Duration used, HostTime begun, HostTime last_firing) noexcept;
   void hand_over_empty(Result& slot) noexcept;
   // Hands over every scan that is ready; how many.
   unsigned hand_over_all(HostTime now) noexcept;
@@ -76,7 +83,9 @@ class Worker {
   ResultRing& results_;
   Pipeline pipeline_;
   ResultGrid grid_;
+  EffortPolicy effort_;
   WorkerCounters counters_;
+  LatencyHistogram compute_time_;
   std::uint64_t next_index_ = 0;
 
   HostTime newest_arrival_{};  // of a lidar packet

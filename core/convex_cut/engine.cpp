@@ -44,7 +44,8 @@ ConvexCutEngine::ConvexCutEngine(const ConvexCutParameters& parameters, std::siz
   }
 }
 
-CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels) noexcept {
+CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels,
+                                 std::uint32_t plane_stride) noexcept {
   if (cloud.size() > max_points()) return CutStatus::too_many_points;
   const CloudCheck check = check_cloud(cloud, labels.size());
   if (check.status != CutStatus::ok) return check.status;
@@ -53,7 +54,7 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
   std::fill_n(structure_.begin(), cloud.size(), std::uint8_t{0});
   next_plane_.store(0, std::memory_order_relaxed);  // published by the team
   auto work = [&](unsigned member) noexcept {
-    process_slices(*workers_[member], check.extent_m, cloud.size());
+    process_slices(*workers_[member], check.extent_m, cloud.size(), plane_stride);
   };
   team_.run(work);
 
@@ -64,16 +65,17 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
   return CutStatus::ok;
 }
 
-void ConvexCutEngine::process_slices(SliceWorker& worker, float extent_m,
-                                     std::size_t points) noexcept {
+void ConvexCutEngine::process_slices(SliceWorker& worker, float extent_m, std::size_t points,
+                                     std::uint32_t plane_stride) noexcept {
   const std::span<std::uint8_t> structure = std::span(structure_).first(points);
-  const auto end = static_cast<std::uint32_t>(planes_.size());
+  const auto end = (static_cast<std::uint32_t>(planes_.size()) + plane_stride - 1) / plane_stride;
   // Relaxed: the counter only deals the planes out. Which thread takes one does not matter: the
   // labels are a union.
   for (std::uint32_t begin = next_plane_.fetch_add(kPlanesAtOnce, std::memory_order_relaxed);
        begin < end; begin = next_plane_.fetch_add(kPlanesAtOnce, std::memory_order_relaxed)) {
     for (std::uint32_t i = begin; i < std::min(begin + kPlanesAtOnce, end); ++i) {
-      worker.process(index_, planes_[i], windows_[i], extent_m, structure);
+      const std::size_t plane = std::size_t{i} * plane_stride;
+      worker.process(index_, planes_[plane], windows_[plane], extent_m, structure);
     }
   }
 }

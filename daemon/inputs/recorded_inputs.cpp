@@ -66,8 +66,10 @@ void RecordedInputs::play_merged() {
 InputTotals RecordedInputs::totals() const noexcept {
   InputTotals totals = lidar_totals(recordings_.lidar_driver());
   if (const auto* imu = recordings_.imu()) {
+    totals.imu_samples = imu->counters().samples.value();
     totals.lost_imu_samples = imu->counters().lost_messages.value();
   } else if (const auto* can = recordings_.can()) {
+    totals.imu_samples = can->counters().samples.value();
     totals.lost_imu_samples = can->counters().lost_groups.value();
   }
   return totals;

@@ -79,13 +79,13 @@ bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
 
   const HostTime stamp = to_host(scan.first_firing);
   if (options_.fixed_mount) {
-    level(scan, stamp, options_.q_level_from_lidar, out);
+    level(scan, stamp, options_.q_level_from_lidar, out, firing_stride(effort_));
   } else {
-    level(scan, stamp, track_, options_.q_imu_from_lidar, out);
+    level(scan, stamp, track_, options_.q_imu_from_lidar, out, firing_stride(effort_));
   }
   // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
   // ever, every point would keep the label `other`.
-  static_cast<void>(engine_.label(out.cloud(), out.label));
+  static_cast<void>(engine_.label(out.cloud(), out.label, plane_stride(effort_)));
   out.structure_points = 0;
   for (const Label label : out.label) out.structure_points += label == Label::structure ? 1U : 0U;
   scan_period_ = period_after(scan);

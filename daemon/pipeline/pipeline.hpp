@@ -24,6 +24,7 @@
 #include "core/scan/packet_sequencer.hpp"
 #include "core/scan/scan.hpp"
 #include "core/scan/scan_cutter.hpp"
+#include "daemon/pipeline/effort.hpp"
 
 namespace convexcut::daemon {
 
@@ -78,6 +79,9 @@ class Pipeline {
   // there, or will not come in time. False: none is ready.
   [[nodiscard]] bool next_scan(HostTime now, LevelledScan& out) noexcept;
 
+  // Of the scans that next_scan() gives from now on.
+  void set_effort(Effort effort) noexcept { effort_ = effort; }
+
   // Drops the oldest scans as long as they ended before `oldest_end`, or as the one behind is ready
   // as well; how many.
   std::size_t drop_superseded(HostTime now, HostTime oldest_end) noexcept;
@@ -127,6 +131,7 @@ class Pipeline {
   std::size_t first_waiting_ = 0;
   std::size_t waiting_count_ = 0;
 
+  Effort effort_ = Effort::full;
   PpsState pps_ = PpsState::unknown;
   bool imu_ended_ = false;
   std::uint32_t imu_clock_steps_ = 0;
