@@ -69,7 +69,7 @@ Daemon::Daemon(const DaemonOptions& options)
       participant_(options.config.dds),
       scans_(participant_, options.config.dds, inputs_->clock(), results_,
              [this](ScanStatus& status) { complete(status); }),
-      imus_(participant_, options.config.dds, rings_.imu_publish) {
+      imus_(participant_, options.config.dds, rings_.imu_publish, rings_.imu_publish_filled) {
   reserve_slots(results_, live_pipeline_options(options.config).max_returns_per_scan);
 }
 
@@ -235,6 +235,8 @@ void Daemon::log_end() const {
   const InputTotals totals = inputs_->totals();
   log::info("end", {{"model", totals.model},
                     {"packets", totals.lidar_packets},
+                    {"position_packets", totals.position_packets},
+                    {"rejected_packets", totals.rejected_lidar_packets},
                     {"lost_packets", worker_.packets().lost.value()},
                     {"kernel_drops", totals.kernel_drops},
                     {"ring_overruns", rings_.overruns()},

@@ -2,13 +2,12 @@
 #include "daemon/imu_publishing.hpp"
 
 #include <chrono>
-#include <thread>
 
 namespace convexcut::daemon {
 namespace {
 
-// Below the 2.5 ms of a 400 Hz IMU.
-constexpr auto kNap = std::chrono::milliseconds{1};
+// The stop flag is looked at this often.
+constexpr Duration kLongestWait = std::chrono::milliseconds{50};
 
 // No IMU is silent for so long, or goes back so far: the host's clock was set, or the device was
 // away. The mapping would notice, but seconds later.
@@ -29,7 +28,7 @@ void ImuPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>& 
     } else if (ended) {
       return;
     } else {
-      std::this_thread::sleep_for(kNap);
+      filled_.wait(kLongestWait);
     }
   }
 }

@@ -7,16 +7,17 @@
 #include "core/imu_sample.hpp"
 #include "core/ring/spsc_ring.hpp"
 #include "daemon/dds/publisher.hpp"
+#include "daemon/wake_up.hpp"
 
 namespace convexcut::daemon {
 
-// Writes every IMU sample as it comes. A thread of its own, not a realtime one, so that a slow
-// reader of clouds does not delay it.
+// Writes every IMU sample as it comes; `filled` is notified of each. A thread of its own, not a
+// realtime one, so that a slow reader of clouds does not delay it.
 class ImuPublishing {
  public:
   ImuPublishing(const Participant& participant, const config::Dds& settings,
-                SpscRing<ImuSample>& samples)
-      : publisher_(participant, settings), samples_(samples) {}
+                SpscRing<ImuSample>& samples, WakeUp& filled)
+      : publisher_(participant, settings), samples_(samples), filled_(filled) {}
 
   // The thread's body: returns on stop, or when `input_ended` is set and the ring is empty.
   void run(const std::atomic<bool>& stop, const std::atomic<bool>& input_ended);
@@ -26,6 +27,7 @@ class ImuPublishing {
 
   ImuPublisher publisher_;
   SpscRing<ImuSample>& samples_;
+  WakeUp& filled_;
   ClockMapping<ImuTime> clock_;
   HostTime newest_arrival_{};
 };

@@ -7,6 +7,7 @@
 #include "core/scan/scan.hpp"
 #include "daemon/clock/clock.hpp"
 #include "daemon/pipeline/effort.hpp"
+#include "daemon/wake_up.hpp"
 
 namespace convexcut::daemon {
 
@@ -19,7 +20,22 @@ struct Result {
   Effort effort = Effort::full;  // that its labels were computed with
 };
 
-using ResultRing = SpscRing<Result>;
+// From the worker to the publisher.
+class ResultRing : public SpscRing<Result> {
+ public:
+  using SpscRing::SpscRing;
+
+  // Worker.
+  void commit() noexcept {
+    SpscRing::commit();
+    filled_.notify();
+  }
+  // Publisher: until the next result, for a while.
+  void wait(Duration longest) noexcept { filled_.wait(longest); }
+
+ private:
+  WakeUp filled_;
+};
 
 // Gives every slot of the ring its memory, so that the worker never allocates. Before the threads
 // start.

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <thread>
 #include <utility>
 
 namespace convexcut::daemon {
 namespace {
 
-// How often an empty ring is looked at: well below the latency that results have in hand.
-constexpr auto kNap = std::chrono::microseconds{500};
+// The stop flag is looked at this often.
+constexpr Duration kLongestWait = std::chrono::milliseconds{50};
 
 // The write begins earlier by what writes take on average, so that it returns at the instant; a
 // slow write shall not draw the next ones forward by more than this.
@@ -41,7 +40,7 @@ void ScanPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>&
     } else if (done) {
       return;
     } else {
-      std::this_thread::sleep_for(kNap);
+      results_.wait(kLongestWait);
     }
   }
 }

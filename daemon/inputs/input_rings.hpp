@@ -6,21 +6,23 @@
 #include "core/ring/ring_sink.hpp"
 #include "core/ring/spsc_ring.hpp"
 #include "core/sink.hpp"
+#include "daemon/wake_up.hpp"
 
 namespace convexcut::daemon {
 
 // Where an IMU driver puts its samples in the daemon: into the worker's ring, and a copy into the
-// publisher's. The driver's thread.
+// publisher's, whom it wakes. The driver's thread.
 class ImuTee final : public Sink<ImuSample> {
  public:
-  ImuTee(SpscRing<ImuSample>& worker, SpscRing<ImuSample>& publisher) noexcept
-      : worker_(worker), publisher_(publisher) {}
+  ImuTee(SpscRing<ImuSample>& worker, SpscRing<ImuSample>& publisher, WakeUp& filled) noexcept
+      : worker_(worker), publisher_(publisher), filled_(filled) {}
 
   [[nodiscard]] ImuSample* claim() noexcept override { return claimed_ = worker_.claim(); }
   void commit() noexcept override {
     if (ImuSample* copy = publisher_.claim()) {
       *copy = *claimed_;
       publisher_.commit();
+      filled_.notify();
     }
     worker_.commit();
   }
@@ -28,6 +30,7 @@ class ImuTee final : public Sink<ImuSample> {
  private:
   SpscRing<ImuSample>& worker_;
   SpscRing<ImuSample>& publisher_;
+  WakeUp& filled_;
   ImuSample* claimed_ = nullptr;
 };
 
@@ -41,9 +44,10 @@ struct InputRings {
   SpscRing<ReturnBatch> lidar{kLidarSlots};
   SpscRing<ImuSample> imu{kImuSlots};
   SpscRing<ImuSample> imu_publish{kImuSlots};
+  WakeUp imu_publish_filled;
   // The producing ends, for the drivers.
   RingSink<ReturnBatch> returns{lidar};
-  ImuTee samples{imu, imu_publish};
+  ImuTee samples{imu, imu_publish, imu_publish_filled};
 
   [[nodiscard]] std::uint64_t overruns() const noexcept {
     return lidar.overruns() + imu.overruns() + imu_publish.overruns();

@@ -21,7 +21,8 @@ struct InputThread {
 
 // What has come in since the start.
 struct InputTotals {
-  std::string_view model = "unknown";        // of the lidar
+  std::string_view model = "unknown";  // of the lidar
+  std::uint64_t position_packets = 0;
   std::uint64_t lidar_packets = 0;           // decoded
   std::uint64_t rejected_lidar_packets = 0;  // received, and not a lidar's
   std::uint64_t kernel_drops = 0;            // datagrams that the kernel had no room for

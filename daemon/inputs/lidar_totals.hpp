@@ -11,6 +11,7 @@ namespace convexcut::daemon {
   const velodyne::LidarCounters& counters = driver.counters();
   InputTotals totals;
   if (const auto model = driver.model()) totals.model = velodyne::model_of(*model).name;
+  totals.position_packets = counters.position_packets.value();
   totals.lidar_packets = counters.data_packets.value();
   totals.rejected_lidar_packets =
       counters.foreign.value() + counters.wrong_length.value() + counters.wrong_block_flag.value() +

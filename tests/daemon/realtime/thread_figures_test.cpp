@@ -4,7 +4,8 @@
 // reads these figures of the daemon itself.
 #include "daemon/realtime/thread_figures.hpp"
 
-#include <memory>
+#include <atomic>
+#include <cstdlib>
 #include <string>
 #include <thread>
 
@@ -49,6 +50,12 @@ TEST(ThreadUsage, CountsTheFaultsOfThisThread) {
   EXPECT_GE(after->minor_faults, before->minor_faults + 64);
 }
 
+// Volatile: or the compiler leaves both out, as it may.
+void new_and_delete() {
+  int* volatile number = new int(1);
+  delete number;
+}
+
 class AllocationWatch : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -59,14 +66,13 @@ class AllocationWatch : public ::testing::Test {
 TEST_F(AllocationWatch, HearsNewAndDeleteAndTheirRelatives) {
   Counter calls;
   watch_allocations(&calls);
-  auto number = std::make_unique<int>(1);
-  number.reset();
+  new_and_delete();
   EXPECT_EQ(calls.value(), 2U);
   struct alignas(64) Line {
     char bytes[64];
   };
-  auto line = std::make_unique<Line>();
-  line.reset();
+  Line* volatile line = new Line;
+  delete line;
   void* memory = nullptr;
   EXPECT_EQ(::posix_memalign(&memory, 64, 64), 0);
   ::free(memory);
@@ -81,7 +87,7 @@ TEST_F(AllocationWatch, HearsOnlyTheThreadThatAsksAndOnlyWhileItDoes) {
   Counter calls;
   watch_allocations(&calls);
   watch_allocations(nullptr);
-  std::thread other([] { std::make_unique<int>(1).reset(); });
+  std::thread other([] { new_and_delete(); });
   other.join();
   EXPECT_EQ(calls.value(), 0U);
 }
@@ -91,14 +97,14 @@ TEST_F(AllocationWatch, ARegisterTellsWhatEachThreadDidSinceItWasSteady) {
   std::atomic<int> step{0};
   std::thread worker([&] {
     threads.enter("worker", ThreadRole::worker);
-    std::make_unique<int>(1).reset();  // start-up
+    new_and_delete();  // start-up
     step = 1;
     while (step < 2) std::this_thread::yield();
-    std::make_unique<int>(1).reset();
+    new_and_delete();
     step = 3;
     while (step < 4) std::this_thread::yield();
     ThreadRegister::leave();
-    std::make_unique<int>(1).reset();
+    new_and_delete();
   });
   while (step < 1) std::this_thread::yield();
   threads.mark_steady();
