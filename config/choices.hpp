@@ -28,6 +28,9 @@ inline constexpr std::array<std::string_view, 2> kNames<MountOrientation>{"imu",
 template <>
 inline constexpr std::array<std::string_view, 1> kNames<Method>{"paper"};
 template <>
+inline constexpr std::array<std::string_view, 6> kNames<SimdPath>{"auto", "avx512", "avx2",
+                                                                  "sse4", "neon",   "baseline"};
+template <>
 inline constexpr std::array<std::string_view, 4> kNames<LogLevel>{"error", "warning", "info",
                                                                   "debug"};
 template <>

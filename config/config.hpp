@@ -18,6 +18,7 @@ enum class CutMode : std::uint8_t { revolution, clock };
 enum class DualReturn : std::uint8_t { farthest, last, strongest, both };
 enum class MountOrientation : std::uint8_t { imu, fixed };
 enum class Method : std::uint8_t { paper };
+enum class SimdPath : std::uint8_t { automatic, avx512, avx2, sse4, neon, baseline };
 enum class LogLevel : std::uint8_t { error, warning, info, debug };
 enum class Reliability : std::uint8_t { reliable, best_effort };
 
@@ -68,6 +69,7 @@ struct ConvexCut {
   double half_width_m = 0.05;
   double hull_distance_m = 0.08;
   std::uint32_t threads = 1;
+  SimdPath simd = SimdPath::automatic;
 };
 
 struct Worker {

@@ -118,6 +118,9 @@ constexpr std::array kKeys{
         "A point is structure when it is at most this far from its slice's hull."),
     bind_key<&Config::convex_cut, &ConvexCut::threads>("convex_cut.threads", Integer{1, 64}, "",
                                                        "Threads that share the work."),
+    bind_key<&Config::convex_cut, &ConvexCut::simd>(
+        "convex_cut.simd", kChoice<SimdPath>, "",
+        "The instruction set to compute with; auto takes the best that the processor has."),
 
     bind_key<&Config::worker, &Worker::period_ms>(
         "worker.period_ms", Integer{10, 1'000}, "ms",
