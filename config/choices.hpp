@@ -34,6 +34,8 @@ template <>
 inline constexpr std::array<std::string_view, 4> kNames<LogLevel>{"error", "warning", "info",
                                                                   "debug"};
 template <>
+inline constexpr std::array<std::string_view, 3> kNames<Realtime>{"auto", "on", "off"};
+template <>
 inline constexpr std::array<std::string_view, 2> kNames<Reliability>{"reliable", "best_effort"};
 
 static_assert(kNames<LidarModel>[static_cast<std::size_t>(LidarModel::vlp32c)] == "vlp32c");
@@ -43,6 +45,7 @@ static_assert(kNames<MountOrientation>[static_cast<std::size_t>(MountOrientation
               "fixed");
 static_assert(kNames<Method>[static_cast<std::size_t>(Method::paper)] == "paper");
 static_assert(kNames<LogLevel>[static_cast<std::size_t>(LogLevel::debug)] == "debug");
+static_assert(kNames<Realtime>[static_cast<std::size_t>(Realtime::off)] == "off");
 static_assert(kNames<Reliability>[static_cast<std::size_t>(Reliability::best_effort)] ==
               "best_effort");
 

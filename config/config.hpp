@@ -20,13 +20,18 @@ enum class MountOrientation : std::uint8_t { imu, fixed };
 enum class Method : std::uint8_t { paper };
 enum class SimdPath : std::uint8_t { automatic, avx512, avx2, sse4, neon, baseline };
 enum class LogLevel : std::uint8_t { error, warning, info, debug };
+enum class Realtime : std::uint8_t { automatic, on, off };
 enum class Reliability : std::uint8_t { reliable, best_effort };
 
 struct Lidar {
   LidarModel model = LidarModel::automatic;
   std::uint16_t data_port = 2368;
   std::uint16_t position_port = 8308;
-  std::string source_address;  // IPv4 address of the sensor, see parse_ipv4(); empty: any
+  std::string source_address;   // IPv4 address of the sensor, see parse_ipv4(); empty: any
+  std::string local_address;    // IPv4 address that is listened on; empty: all, and broadcasts
+  std::string multicast_group;  // IPv4 group that the sensor sends to; empty: none
+  std::string interface;        // network interface that is listened on; empty: any
+  std::int64_t receive_buffer_kib = 8192;
   double min_range_m = 0.5;
   double max_range_m = 100.0;
   Degrees cut_azimuth{0.0};
@@ -48,7 +53,12 @@ struct Imu {
   Degrees mount_pitch{0.0};
   Degrees mount_yaw{0.0};
   std::int64_t max_age_ms = 50;
+  std::string device;           // serial device of the live IMU; empty: none
   std::uint32_t baud = 115200;  // the line's rate: the time that the bytes of a frame take
+  bool configure = false;       // false: whatever the device sends is taken, nothing is sent to it
+  std::uint32_t rate_hz = 400;  // of the samples, where it is configured
+  std::uint32_t set_baud = 460800;  // the line's rate after configuration; 0: as it is
+  bool scan_baud = false;           // whether other rates are tried when it does not answer
 };
 
 struct Can {
@@ -75,6 +85,7 @@ struct ConvexCut {
 struct Worker {
   std::int64_t period_ms = 100;
   std::int64_t latency_ms = 10;
+  bool reduce_effort = true;
 };
 
 struct Dds {
@@ -89,6 +100,17 @@ struct Dds {
   std::int64_t max_blocking_ms = 50;
 };
 
+struct RealtimeSettings {
+  Realtime enabled = Realtime::automatic;
+  std::uint32_t receive_priority = 80;  // SCHED_FIFO, of the threads that receive
+  std::uint32_t worker_priority = 70;
+  std::uint32_t publish_priority = 60;
+  std::string receive_cpus;  // see parse_cpus(); empty: all
+  std::string worker_cpus;
+  std::string publish_cpus;
+  bool lock_memory = true;
+};
+
 struct Log {
   LogLevel level = LogLevel::info;
 };
@@ -100,6 +122,7 @@ struct Config {
   Can can;
   ConvexCut convex_cut;
   Worker worker;
+  RealtimeSettings realtime;
   Dds dds;
   Log log;
 };

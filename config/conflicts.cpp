@@ -12,6 +12,8 @@ namespace convexcut::config {
 namespace {
 
 constexpr std::uint32_t kStandardCanIds = 0x7FF;
+constexpr std::uint32_t kMaxImuRateHz = 400;  // of the MTi's orientation
+constexpr std::uint32_t kBitsPerByte = 10;    // 8N1
 
 class Conflicts {
  public:
@@ -87,6 +89,26 @@ std::optional<std::string> port_collision(std::uint32_t domain, std::uint16_t da
   return user ? user : user_of_port(domain, position_port);
 }
 
+namespace {
+
+void check_imu_configuration(const Imu& imu, Conflicts& conflicts) {
+  if (kMaxImuRateHz % imu.rate_hz != 0) {
+    conflicts.add({"imu.rate_hz"}, "expected a divisor of " + std::to_string(kMaxImuRateHz) +
+                                       ", found " + std::to_string(imu.rate_hz));
+  }
+  const bool changed = imu.baud != 0 && imu.set_baud != 0;  // USB has no rate to change
+  const std::uint32_t line = changed ? imu.set_baud : imu.baud;
+  const std::uint32_t needed = imu.rate_hz * kConfiguredMessageBytes * kBitsPerByte;
+  if (imu.configure && line != 0 && needed > line) {
+    conflicts.add({"imu.configure", "imu.rate_hz", "imu.baud", "imu.set_baud"},
+                  "expected a line of at least " + std::to_string(needed) + " bit/s for " +
+                      std::to_string(imu.rate_hz) + " Hz, found " + std::to_string(line) +
+                      ": set imu.set_baud, or a lower imu.rate_hz");
+  }
+}
+
+}  // namespace
+
 std::vector<Conflict> find_conflicts(const Config& config) {
   constexpr std::array<std::string_view, 7> kCanIds{
       "can.sample_time_id", "can.group_counter_id", "can.status_id",      "can.quaternion_id",
@@ -94,6 +116,8 @@ std::vector<Conflict> find_conflicts(const Config& config) {
   Conflicts conflicts(config);
   conflicts.require_less("lidar.min_range_m", "lidar.max_range_m");
   conflicts.require_less("worker.latency_ms", "worker.period_ms");
+  conflicts.require_less("realtime.publish_priority", "realtime.worker_priority");
+  conflicts.require_less("realtime.worker_priority", "realtime.receive_priority");
   conflicts.require_different(
       std::array<std::string_view, 2>{"lidar.data_port", "lidar.position_port"});
   conflicts.require_different(kCanIds);
@@ -103,6 +127,7 @@ std::vector<Conflict> find_conflicts(const Config& config) {
   conflicts.require_different(
       std::array<std::string_view, 3>{"dds.structure_topic", "dds.points_topic", "dds.imu_topic"});
   conflicts.require_different(std::array<std::string_view, 2>{"dds.level_frame", "dds.imu_frame"});
+  check_imu_configuration(config.imu, conflicts);
   const auto collision =
       port_collision(config.dds.domain, config.lidar.data_port, config.lidar.position_port);
   if (collision) {

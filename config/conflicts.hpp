@@ -13,6 +13,10 @@
 
 namespace convexcut::config {
 
+// What an IMU that is configured sends for each sample (packet counter, time, orientation, rate of
+// turn, acceleration, status), which its line must be fast enough for.
+inline constexpr std::uint32_t kConfiguredMessageBytes = 73;
+
 struct Conflict {
   std::vector<std::string_view> keys;  // that take part
   std::string text;                    // "expected …, found …"

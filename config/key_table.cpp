@@ -14,9 +14,15 @@ constexpr Text kTopic{"a ROS topic name without leading slash (letters, digits, 
 constexpr Text kFrame{"a frame name without spaces and leading slash", is_frame_name};
 constexpr Text kPath{"a path, or nothing", is_path_or_empty};
 constexpr Text kAddress{"an IPv4 address like 192.168.1.201, or nothing", is_ipv4_or_empty};
+constexpr Text kGroup{"an IPv4 multicast group, 224.0.0.0 to 239.255.255.255, or nothing",
+                      is_multicast_or_empty};
+constexpr Text kInterface{"a network interface like eth0, or nothing", is_interface_or_empty};
+
+constexpr Text kCpus{"CPU numbers and ranges like 0,2-3, or nothing", is_cpus_or_empty};
 
 constexpr Number kTurn{-360.0, 360.0};
 constexpr Integer kPort{1, 65535};
+constexpr Integer kPriority{1, 98};  // 99 is for the kernel's own threads
 constexpr Integer kCanId{0, 0x1FFFFFFF, Integer::Notation::hexadecimal};
 constexpr std::int64_t kHourInMicroseconds = 3'600'000'000;
 constexpr std::int64_t kLastDomain = 232;  // beyond it the ports of DDS do not fit 16 bits
@@ -28,6 +34,7 @@ constexpr std::array kSections{
     Section{"can", "The IMU on a CAN bus: identifiers of its messages."},
     Section{"convex_cut", "The extraction of structure."},
     Section{"worker", "The grid on which results are made and published."},
+    Section{"realtime", "How the threads are kept on time."},
     Section{"dds", "What is published, where and how."},
     Section{"log", "The log on standard error."},
 };
@@ -42,6 +49,18 @@ constexpr std::array kKeys{
     bind_key<&Config::lidar, &Lidar::source_address>(
         "lidar.source_address", kAddress, "",
         "The sensor's own address: packets of other senders are dropped; empty: any sender."),
+    bind_key<&Config::lidar, &Lidar::local_address>(
+        "lidar.local_address", kAddress, "",
+        "The host's address to listen on; empty: all of them, and broadcasts."),
+    bind_key<&Config::lidar, &Lidar::multicast_group>(
+        "lidar.multicast_group", kGroup, "",
+        "The group that the sensor sends to; empty: it sends to an address or to all."),
+    bind_key<&Config::lidar, &Lidar::interface>(
+        "lidar.interface", kInterface, "",
+        "The network interface that the sensor is on; empty: any."),
+    bind_key<&Config::lidar, &Lidar::receive_buffer_kib>(
+        "lidar.receive_buffer_kib", Integer{64, 1'048'576}, "KiB",
+        "Receive buffer of the data port; 8192 hold packets for seconds."),
     bind_key<&Config::lidar, &Lidar::min_range_m>("lidar.min_range_m", Number{0.0, 200.0}, "m",
                                                   "Nearer returns are dropped."),
     bind_key<&Config::lidar, &Lidar::max_range_m>("lidar.max_range_m", Number{0.0, 300.0}, "m",
@@ -81,9 +100,24 @@ constexpr std::array kKeys{
     bind_key<&Config::imu, &Imu::max_age_ms>(
         "imu.max_age_ms", Integer{1, 10'000}, "ms",
         "How long an orientation is held, or interpolated over, when samples are missing."),
+    bind_key<&Config::imu, &Imu::device>(
+        "imu.device", kPath, "",
+        "Serial device of the live IMU, best one of /dev/serial/by-id; empty: none."),
     bind_key<&Config::imu, &Imu::baud>(
         "imu.baud", Integer{0, 4'000'000}, "bit/s",
         "Rate of the serial line, which gives the time its bytes take; 0: no line (USB)."),
+    bind_key<&Config::imu, &Imu::configure>(
+        "imu.configure", Boolean{}, "",
+        "Whether the live IMU is told what to send; if not, what it sends is taken."),
+    bind_key<&Config::imu, &Imu::rate_hz>(
+        "imu.rate_hz", Integer{1, 400}, "Hz",
+        "Samples per second of an IMU that is configured: a divisor of 400."),
+    bind_key<&Config::imu, &Imu::set_baud>(
+        "imu.set_baud", Integer{0, 4'000'000}, "bit/s",
+        "Rate that the line of an IMU is set to when it is configured; 0: left as it is."),
+    bind_key<&Config::imu, &Imu::scan_baud>(
+        "imu.scan_baud", Boolean{}, "",
+        "Whether an IMU to be configured that does not answer is tried at other rates."),
 
     bind_key<&Config::can, &Can::bitrate>("can.bitrate", Integer{5'000, 1'000'000}, "bit/s",
                                           "Rate of the bus, which gives the time a frame takes."),
@@ -128,6 +162,30 @@ constexpr std::array kKeys{
     bind_key<&Config::worker, &Worker::latency_ms>(
         "worker.latency_ms", Integer{1, 1'000}, "ms",
         "Constant time from a scan's last firing to its publication."),
+    bind_key<&Config::worker, &Worker::reduce_effort>(
+        "worker.reduce_effort", Boolean{}, "",
+        "Whether less is computed (fewer planes, then fewer points) when results would be late."),
+
+    bind_key<&Config::realtime, &RealtimeSettings::enabled>(
+        "realtime.enabled", kChoice<Realtime>, "",
+        "Realtime scheduling: where it is permitted, on (or the start fails), or off."),
+    bind_key<&Config::realtime, &RealtimeSettings::receive_priority>(
+        "realtime.receive_priority", kPriority, "",
+        "SCHED_FIFO priority of the threads that receive."),
+    bind_key<&Config::realtime, &RealtimeSettings::worker_priority>(
+        "realtime.worker_priority", kPriority, "", "SCHED_FIFO priority of the worker."),
+    bind_key<&Config::realtime, &RealtimeSettings::publish_priority>(
+        "realtime.publish_priority", kPriority, "",
+        "SCHED_FIFO priority of the threads that publish."),
+    bind_key<&Config::realtime, &RealtimeSettings::receive_cpus>(
+        "realtime.receive_cpus", kCpus, "", "CPUs of the threads that receive; empty: all."),
+    bind_key<&Config::realtime, &RealtimeSettings::worker_cpus>("realtime.worker_cpus", kCpus, "",
+                                                                "CPUs of the worker; empty: all."),
+    bind_key<&Config::realtime, &RealtimeSettings::publish_cpus>(
+        "realtime.publish_cpus", kCpus, "", "CPUs of the threads that publish; empty: all."),
+    bind_key<&Config::realtime, &RealtimeSettings::lock_memory>(
+        "realtime.lock_memory", Boolean{}, "",
+        "Whether all memory is locked, so that no page of it has to be fetched again."),
 
     bind_key<&Config::dds, &Dds::domain>("dds.domain", Integer{0, kLastDomain}, "",
                                          "DDS domain: ROS_DOMAIN_ID of the subscribers."),

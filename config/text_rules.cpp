@@ -68,4 +68,43 @@ std::optional<std::uint32_t> parse_ipv4(std::string_view text) noexcept {
 
 bool is_ipv4_or_empty(std::string_view text) noexcept { return text.empty() || parse_ipv4(text); }
 
+bool is_multicast_or_empty(std::string_view text) noexcept {
+  constexpr std::uint32_t kClassMask = 0xF0000000;
+  constexpr std::uint32_t kClassD = 0xE0000000;
+  const std::optional<std::uint32_t> address = parse_ipv4(text);
+  return text.empty() || (address && (*address & kClassMask) == kClassD);
+}
+
+bool is_interface_or_empty(std::string_view text) noexcept {
+  constexpr std::size_t kMaxInterfaceName = 15;  // IFNAMSIZ with its end
+  if (text == "." || text == "..") return false;
+  return text.size() <= kMaxInterfaceName && std::ranges::all_of(text, is_graphic) &&
+         text.find_first_of("/:") == std::string_view::npos;
+}
+
+std::optional<CpuSet> parse_cpus(std::string_view text) noexcept {
+  CpuSet cpus;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const auto number = [&at, end, &cpus](std::size_t& value) {
+    const auto [next, error] = std::from_chars(at, end, value);
+    at = next;
+    return error == std::errc{} && value < cpus.size();
+  };
+  for (;;) {
+    std::size_t first = 0;
+    if (!number(first)) return std::nullopt;
+    std::size_t last = first;
+    if (at != end && *at == '-') {
+      ++at;
+      if (!number(last) || last < first) return std::nullopt;
+    }
+    for (std::size_t cpu = first; cpu <= last; ++cpu) cpus.set(cpu);
+    if (at == end) return cpus;
+    if (*at++ != ',') return std::nullopt;
+  }
+}
+
+bool is_cpus_or_empty(std::string_view text) noexcept { return text.empty() || parse_cpus(text); }
+
 }  // namespace convexcut::config

@@ -3,6 +3,7 @@
 // What texts in the configuration have to look like.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -24,5 +25,16 @@ namespace convexcut::config {
 // Dotted decimal, four numbers 0 … 255 without leading zeros: 192.168.1.201 is 0xC0A801C9.
 [[nodiscard]] std::optional<std::uint32_t> parse_ipv4(std::string_view text) noexcept;
 [[nodiscard]] bool is_ipv4_or_empty(std::string_view text) noexcept;
+// 224.0.0.0 … 239.255.255.255 (RFC 5771).
+[[nodiscard]] bool is_multicast_or_empty(std::string_view text) noexcept;
+
+// A Linux network interface: 1 … 15 characters without slash, colon or space, neither "." nor "..".
+[[nodiscard]] bool is_interface_or_empty(std::string_view text) noexcept;
+
+// CPU numbers and ranges of them, joined by commas, as taskset and systemd take them: "0,2-3" →
+// bits 0, 2 and 3. Numbers 0 … 1023 (the kernel's cpu_set_t), ranges that do not fall.
+using CpuSet = std::bitset<1024>;
+[[nodiscard]] std::optional<CpuSet> parse_cpus(std::string_view text) noexcept;
+[[nodiscard]] bool is_cpus_or_empty(std::string_view text) noexcept;
 
 }  // namespace convexcut::config

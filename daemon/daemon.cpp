@@ -6,15 +6,16 @@
 #include <ctime>
 #include <utility>
 
+#include "daemon/inputs/live_inputs.hpp"
+#include "daemon/inputs/recorded_inputs.hpp"
 #include "daemon/log/log.hpp"
-#include "drivers/velodyne/model.hpp"
 
 namespace convexcut::daemon {
 namespace {
 
 WorkerOptions worker_options(const config::Worker& settings) {
   return {std::chrono::milliseconds{settings.period_ms},
-          std::chrono::milliseconds{settings.latency_ms}};
+          std::chrono::milliseconds{settings.latency_ms}, settings.reduce_effort};
 }
 
 // In the daemon a scan waits for its last orientations no longer than the latency allows: three
@@ -24,7 +25,30 @@ PipelineOptions live_pipeline_options(const config::Config& config) {
   options.orientation_wait =
       std::min(options.orientation_wait,
                Duration{std::chrono::milliseconds{config.worker.latency_ms}} * 2 / 5);
+  // Memory is locked: what only dual returns need is not taken without them.
+  if (options.cut.echoes != CutOptions::Echoes::both &&
+      options.cut.mode == CutOptions::Mode::revolution) {
+    options.max_returns_per_scan = kMostSingleReturnsPerScan;
+  }
   return options;
+}
+
+std::unique_ptr<Inputs> make_inputs(const DaemonOptions& options, InputRings& rings,
+                                    const std::atomic<bool>& stop) {
+  if (options.recordings.lidar.empty()) {
+    return std::make_unique<LiveInputs>(options.config, rings, stop);
+  }
+  return std::make_unique<RecordedInputs>(options.recordings, options.config, options.rate, rings,
+                                          stop);
+}
+
+// A worker that is never paced would take a CPU for itself.
+config::RealtimeSettings realtime_settings(const DaemonOptions& options) {
+  config::RealtimeSettings settings = options.config.realtime;
+  if (!options.recordings.lidar.empty() && options.rate == 0.0) {
+    settings.enabled = config::Realtime::off;
+  }
+  return settings;
 }
 
 constexpr auto kSupervision = std::chrono::milliseconds{20};
@@ -34,16 +58,19 @@ constexpr auto kReportEvery = std::chrono::seconds{1};
 
 Daemon::Daemon(const DaemonOptions& options)
     : options_(options),
-      clock_(options.rate, stop_),
-      recordings_(options.recordings, options.config, lidar_sink_, imu_sink_),
-      worker_(live_pipeline_options(options.config), worker_options(options.config.worker), clock_,
-              lidar_ring_, imu_ring_, results_),
+      realtime_(realtime_settings(options)),
+      inputs_(make_inputs(options, rings_, stop_)),
+      worker_(realtime_.as(ThreadRole::worker,
+                           [&] {
+                             return Worker(live_pipeline_options(options.config),
+                                           worker_options(options.config.worker), inputs_->clock(),
+                                           rings_.lidar, rings_.imu, results_);
+                           })),
       participant_(options.config.dds),
-      scans_(participant_, options.config.dds,
-             std::chrono::milliseconds{options.config.worker.latency_ms}, clock_, results_,
+      scans_(participant_, options.config.dds, inputs_->clock(), results_,
              [this](ScanStatus& status) { complete(status); }),
-      imus_(participant_, options.config.dds, imu_publish_ring_) {
-  reserve_slots(results_);
+      imus_(participant_, options.config.dds, rings_.imu_publish) {
+  reserve_slots(results_, live_pipeline_options(options.config).max_returns_per_scan);
 }
 
 Daemon::~Daemon() {
@@ -54,22 +81,25 @@ Daemon::~Daemon() {
 }
 
 void Daemon::run() {
-  log::info("start", {{"lidar", options_.recordings.lidar.string()},
-                      {"imu", options_.recordings.imu.string()},
-                      {"can", options_.recordings.can.string()},
-                      {"rate", clock_.paced() ? std::to_string(options_.rate) : "max"},
-                      {"domain", options_.config.dds.domain}});
+  inputs_->log_start();
+  for (const std::string& problem : realtime_.problems()) {
+    log::warning("realtime", {{"problem", problem}});
+  }
+  log::info("start", {{"domain", options_.config.dds.domain},
+                      {"scheduling", realtime_.scheduled() ? "fifo" : "normal"},
+                      {"memory", realtime_.memory_locked() ? "locked" : "normal"}});
   wait_for_reader();
   if (!signalled()) {
     start_threads();
     supervise();
   }
-  stop_.store(signalled(), std::memory_order_relaxed);
+  log_threads();
+  log_timing();
   for (std::thread& thread : threads_) thread.join();
   threads_.clear();
   log_losses();
   log_end();
-  if (!signalled()) recordings_.check_content();
+  if (!signalled()) inputs_->check_content();
 }
 
 void Daemon::wait_for_reader() {
@@ -80,66 +110,41 @@ void Daemon::wait_for_reader() {
 }
 
 void Daemon::start_threads() {
-  clock_.start(recordings_.first_stamp());
-  if (clock_.paced()) {
-    const auto streams = recordings_.streams();
-    start_source(*streams.front(), lidar_ended_);
-    const bool imu = recordings_.imu() != nullptr;
-    if (imu) start_source(*streams[1], imu_ended_);
-    if (recordings_.can() != nullptr && !imu) start_source(*streams[1], imu_ended_);
-    if (streams.size() == 1) imu_ended_.store(true, std::memory_order_release);
-  } else {
-    start_merged_sources();
+  started_ = std::chrono::steady_clock::now();
+  for (InputThread& thread : inputs_->start()) {
+    start_thread(thread.name, thread.role, std::move(thread.body));
   }
-  threads_.emplace_back([this] {
-    worker_.run(stop_, lidar_ended_, imu_ended_);
+  start_thread("worker", ThreadRole::worker, [this] {
+    worker_.run(stop_, inputs_->lidar_ended(), inputs_->imu_ended());
     worker_done_.store(true, std::memory_order_release);  // pairs with ScanPublishing::run
   });
-  threads_.emplace_back([this] {
+  start_thread("publish", ThreadRole::publish, [this] {
     scans_.run(stop_, worker_done_);
     published_.store(true, std::memory_order_release);  // pairs with supervise()
   });
-  threads_.emplace_back([this] { imus_.run(stop_, imu_ended_); });
+  start_thread("publish_imu", ThreadRole::publish,
+               [this] { imus_.run(stop_, inputs_->imu_ended()); });
 }
 
-void Daemon::start_source(recording::RecordedStream& stream, std::atomic<bool>& ended) {
-  threads_.emplace_back([this, &stream, &ended] {
-    while (const auto stamp = stream.next_stamp()) {
-      clock_.wait_until(*stamp);
-      if (signalled()) break;
-      stream.deliver();
-    }
-    stream.finish();
-    ended.store(true, std::memory_order_release);  // pairs with Worker::run and ImuPublishing::run
-  });
-}
-
-void Daemon::start_merged_sources() {
-  threads_.emplace_back([this] {
-    // As fast as possible means: as fast as the rings are emptied. Nothing is lost.
-    const auto full = [](const auto& ring) { return ring.size_approx() + 8 > ring.capacity(); };
-    while (!signalled()) {
-      if (full(lidar_ring_) || full(imu_ring_) || full(imu_publish_ring_)) {
-        std::this_thread::sleep_for(std::chrono::microseconds{100});
-        continue;
-      }
-      const auto stamp = recordings_.step();
-      if (!stamp) break;
-      clock_.delivered(*stamp);
-    }
-    recordings_.finish();
-    lidar_ended_.store(true, std::memory_order_release);  // pairs with Worker::run
-    imu_ended_.store(true, std::memory_order_release);    // and ImuPublishing::run
+void Daemon::start_thread(const char* name, ThreadRole role, std::function<void()> body) {
+  threads_.emplace_back([this, name, role, body = std::move(body)] {
+    realtime_.enter(role, name);
+    register_.enter(name, role);
+    body();
+    ThreadRegister::leave();
   });
 }
 
 void Daemon::supervise() {
   auto next_report = std::chrono::steady_clock::now() + kReportEvery;
+  bool steady = false;
   // Acquire: pairs with the release store when the last result has been written.
   while (!published_.load(std::memory_order_acquire)) {
     if (!pause(kSupervision)) return;
     if (std::chrono::steady_clock::now() >= next_report) {
       next_report += kReportEvery;
+      if (!std::exchange(steady, true)) register_.mark_steady();
+      inputs_->log_changes();
       log_losses();
     }
   }
@@ -160,20 +165,12 @@ bool Daemon::pause(Duration span) {
 }
 
 void Daemon::complete(ScanStatus& status) const {
-  const velodyne::LidarCounters& lidar = recordings_.lidar_driver().counters();
+  const InputTotals totals = inputs_->totals();
   status.lost_packets_total = worker_.packets().lost.value();
-  status.rejected_packets_total =
-      lidar.foreign.value() + lidar.wrong_length.value() + lidar.wrong_block_flag.value() +
-      lidar.azimuth_out_of_range.value() + lidar.timestamp_out_of_range.value() +
-      lidar.no_sentence.value() + lidar.model_unknown.value();
-  status.lost_imu_samples_total = lost_imu_samples();
-  status.ring_overruns_total = lidar_ring_.overruns() + imu_ring_.overruns();
-}
-
-std::uint64_t Daemon::lost_imu_samples() const {
-  if (recordings_.imu() != nullptr) return recordings_.imu()->counters().lost_messages.value();
-  if (recordings_.can() != nullptr) return recordings_.can()->counters().lost_groups.value();
-  return 0;
+  status.rejected_packets_total = totals.rejected_lidar_packets;
+  status.lost_imu_samples_total = totals.lost_imu_samples;
+  status.ring_overruns_total = rings_.overruns();
+  status.reduced_scans_total = worker_.counters().reduced_scans.value();
 }
 
 void Daemon::log_losses() {
@@ -184,6 +181,8 @@ void Daemon::log_losses() {
       totals.lost_packets_total + totals.rejected_packets_total + totals.lost_imu_samples_total +
       totals.ring_overruns_total + scans_.counters().late.value() +
       scans_.counters().timed_out.value() + worker.dropped_scans.value() +
+      worker.superseded_scans.value() + worker.dropped_results.value() +
+      worker.missed_instants.value() + worker.reduced_scans.value() + worker.clock_steps.value() +
       worker_.packets().late.value() + worker.dropped_no_orientation.value();
   if (losses == reported_losses_) return;
   reported_losses_ = losses;
@@ -195,16 +194,52 @@ void Daemon::log_losses() {
                           {"points_without_orientation", worker.dropped_no_orientation.value()},
                           {"late_scans", scans_.counters().late.value()},
                           {"dropped_scans", worker.dropped_scans.value()},
+                          {"superseded_scans", worker.superseded_scans.value()},
+                          {"dropped_results", worker.dropped_results.value()},
+                          {"missed_instants", worker.missed_instants.value()},
+                          {"reduced_scans", worker.reduced_scans.value()},
+                          {"clock_steps", worker.clock_steps.value()},
                           {"publish_timeouts", scans_.counters().timed_out.value()}});
 }
 
-void Daemon::log_end() const {
-  for (const std::string& warning : recordings_.warnings()) {
-    log::warning("recording", {{"problem", warning}});
+void Daemon::log_threads() {
+  for (const ThreadFigures& thread : register_.figures()) {
+    log::info("thread", {{"name", thread.name},
+                         {"allocations", thread.allocations},
+                         {"minor_faults", thread.minor_faults},
+                         {"major_faults", thread.major_faults},
+                         {"cpu_ms", thread.cpu_time / std::chrono::milliseconds{1}}});
   }
-  const auto model = recordings_.lidar_driver().model();
-  log::info("end", {{"model", model ? velodyne::model_of(*model).name : "unknown"},
-                    {"packets", recordings_.lidar_driver().counters().data_packets.value()},
+}
+
+void Daemon::log_timing() const {
+  const LatencyHistogram& jitter = scans_.jitter();
+  const LatencyHistogram& compute = worker_.compute_time();
+  const auto us = [](Duration span) { return span / std::chrono::microseconds{1}; };
+  const Duration run = std::chrono::steady_clock::now() - started_;
+  log::info("timing", {{"run_ms", run / std::chrono::milliseconds{1}},
+                       {"results", scans_.counters().published.value()},
+                       {"late", scans_.counters().late.value()},
+                       {"jitter_p50_us", us(jitter.percentile(50.0))},
+                       {"jitter_p99_us", us(jitter.percentile(99.0))},
+                       {"jitter_p999_us", us(jitter.percentile(99.9))},
+                       {"jitter_max_us", us(jitter.max())},
+                       {"compute_p50_us", us(compute.percentile(50.0))},
+                       {"compute_p99_us", us(compute.percentile(99.0))},
+                       {"compute_max_us", us(compute.max())},
+                       {"reduced_scans", worker_.counters().reduced_scans.value()}});
+}
+
+void Daemon::log_end() const {
+  inputs_->log_end();
+  const InputTotals totals = inputs_->totals();
+  log::info("end", {{"model", totals.model},
+                    {"packets", totals.lidar_packets},
+                    {"lost_packets", worker_.packets().lost.value()},
+                    {"kernel_drops", totals.kernel_drops},
+                    {"ring_overruns", rings_.overruns()},
+                    {"imu_samples", totals.imu_samples},
+                    {"lost_imu_samples", totals.lost_imu_samples},
                     {"scans", scans_.counters().published.value()},
                     {"empty", worker_.counters().empty_results.value()},
                     {"late", scans_.counters().late.value()}});

@@ -10,6 +10,10 @@ namespace {
 // Below the 2.5 ms of a 400 Hz IMU.
 constexpr auto kNap = std::chrono::milliseconds{1};
 
+// No IMU is silent for so long, or goes back so far: the host's clock was set, or the device was
+// away. The mapping would notice, but seconds later.
+constexpr Duration kLeap = std::chrono::seconds{1};
+
 }  // namespace
 
 void ImuPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>& input_ended) {
@@ -32,6 +36,8 @@ void ImuPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>& 
 
 void ImuPublishing::publish(const ImuSample& sample) {
   HostTime stamp = sample.arrival;
+  if (std::chrono::abs(sample.arrival - newest_arrival_) > kLeap) clock_.reset();
+  newest_arrival_ = sample.arrival;
   if (sample.has_device_time) {
     clock_.observe(sample.device_time, sample.arrival);
     stamp = clock_.to_host(sample.device_time);

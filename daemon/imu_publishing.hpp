@@ -6,32 +6,9 @@
 #include "core/clock/clock_mapping.hpp"
 #include "core/imu_sample.hpp"
 #include "core/ring/spsc_ring.hpp"
-#include "core/sink.hpp"
 #include "daemon/dds/publisher.hpp"
 
 namespace convexcut::daemon {
-
-// Where an IMU driver puts its samples in the daemon: into the worker's ring, and a copy into the
-// publisher's. The driver's thread.
-class ImuTee final : public Sink<ImuSample> {
- public:
-  ImuTee(SpscRing<ImuSample>& worker, SpscRing<ImuSample>& publisher) noexcept
-      : worker_(worker), publisher_(publisher) {}
-
-  [[nodiscard]] ImuSample* claim() noexcept override { return claimed_ = worker_.claim(); }
-  void commit() noexcept override {
-    if (ImuSample* copy = publisher_.claim()) {
-      *copy = *claimed_;
-      publisher_.commit();
-    }
-    worker_.commit();
-  }
-
- private:
-  SpscRing<ImuSample>& worker_;
-  SpscRing<ImuSample>& publisher_;
-  ImuSample* claimed_ = nullptr;
-};
 
 // Writes every IMU sample as it comes. A thread of its own, not a realtime one, so that a slow
 // reader of clouds does not delay it.
@@ -50,6 +27,7 @@ class ImuPublishing {
   ImuPublisher publisher_;
   SpscRing<ImuSample>& samples_;
   ClockMapping<ImuTime> clock_;
+  HostTime newest_arrival_{};
 };
 
 }  // namespace convexcut::daemon

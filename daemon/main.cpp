@@ -1,30 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // convexcutd: the daemon. See `convexcutd --help`.
-#include <charconv>
-#include <cmath>
 #include <csignal>
 
 #include "daemon/command_line/arguments.hpp"
+#include "daemon/command_line/rate.hpp"
 #include "daemon/daemon.hpp"
 #include "daemon/log/log.hpp"
 
 namespace {
 
 using namespace convexcut;
-
-// "max" → 0, which is how the clock spells it.
-double parse_rate(const std::string& text) {
-  if (text == "max") return 0.0;
-  double rate = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rate);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(rate) ||
-      rate <= 0.0) {
-    throw command_line::UsageError("--rate: expected a number above 0 or max, found \"" + text +
-                                   "\"");
-  }
-  return rate;
-}
 
 // Every thread inherits this: only Daemon::run() takes the signals, by asking for them.
 void block_stop_signals() {
@@ -45,8 +31,13 @@ struct Arguments {
 int run(const Arguments& args) {
   daemon::DaemonOptions options;
   options.config = args.config.load();
-  options.rate = parse_rate(args.rate);
+  options.rate = command_line::parse_rate(args.rate);
   options.recordings = args.recordings.paths;
+  if (options.recordings.lidar.empty() &&
+      !(options.recordings.imu.empty() && options.recordings.can.empty())) {
+    throw command_line::UsageError(
+        "expected --lidar FILE beside --imu or --can, or none of them to run live");
+  }
   options.wait_for_reader = Duration{static_cast<Duration::rep>(args.wait_for_reader_s * 1e9)};
   daemon::log::set_level(options.config.log.level);
   block_stop_signals();
@@ -62,7 +53,7 @@ int program(int argc, char** argv) {
       "convexcutd");
   root.set_version_flag("--version", "convexcutd " CONVEXCUT_VERSION);
   Arguments args;
-  args.recordings.add_to(root, true);
+  args.recordings.add_to(root, false);
   args.config.add_to(root);
   root.add_option("--rate", args.rate, "Recorded seconds per second, or max (default 1)")
       ->type_name("X|max");
@@ -71,8 +62,10 @@ int program(int argc, char** argv) {
       ->check(CLI::Range(0.0, 3600.0))
       ->type_name("SECONDS");
   root.footer(
+      "Without --lidar it runs live, on the sensors that the configuration names.\n"
       "Exit status: 0 done, 1 failed while running, 2 wrong usage or configuration.\n"
-      "Example:\n"
+      "Examples:\n"
+      "  convexcutd --set imu.device=/dev/ttyUSB0\n"
       "  convexcutd --lidar lidar.pcap --imu imu.pcap &\n"
       "  convexcut watch");
   return command_line::run_program(root, argc, argv, [&args] { return run(args); });

@@ -20,12 +20,10 @@ constexpr int kLeadMemory = 8;
 }  // namespace
 
 ScanPublishing::ScanPublishing(const Participant& participant, const config::Dds& settings,
-                               Duration latency, const PlaybackClock& clock,
-                               SpscRing<LevelledScan>& results,
+                               const Clock& clock, ResultRing& results,
                                std::function<void(ScanStatus&)> complete)
     : publisher_(participant, settings),
       status_publisher_(participant, settings),
-      latency_(latency),
       clock_(clock),
       results_(results),
       complete_(std::move(complete)) {}
@@ -36,9 +34,9 @@ void ScanPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>&
     // Before looking into the ring. Acquire: pairs with the release store after the worker's last
     // commit, so that an empty ring then stays empty.
     const bool done = worker_done.load(std::memory_order_acquire);
-    const LevelledScan* scan = results_.front();
-    if (scan != nullptr) {
-      publish(*scan);
+    const Result* result = results_.front();
+    if (result != nullptr) {
+      publish(*result);
       results_.pop();
     } else if (done) {
       return;
@@ -48,15 +46,21 @@ void ScanPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>&
   }
 }
 
-void ScanPublishing::publish(const LevelledScan& scan) {
-  const HostTime due = scan.last_firing + latency_;
-  const bool late = clock_.paced() && clock_.now() > due;
-  clock_.wait_until(due - lead_);
-  const HostTime begun = clock_.now();
-  const PublishStatus structure = publisher_.publish_structure(scan);
-  const HostTime written = clock_.now();
-  const Duration latency = written - scan.last_firing;
-  lead_ += (std::min(written - begun, kLongestLead) - lead_) / kLeadMemory;
+void ScanPublishing::publish(const Result& result) {
+  const LevelledScan& scan = result.scan;
+  const bool late =
+      clock_.paced() && scan.end != ScanEnd::no_data && Clock::Steady::now() > result.due;
+  publisher_.prepare_structure(scan);
+  clock_.wait_until(result.due - lead_);
+  const auto begun = Clock::Steady::now();
+  const PublishStatus structure = publisher_.publish_prepared_structure();
+  const auto written = Clock::Steady::now();
+  lead_ += (std::min<Duration>(written - begun, kLongestLead) - lead_) / kLeadMemory;
+  if (clock_.paced() && !late && structure == PublishStatus::sent) {
+    jitter_.record(std::chrono::abs(written - result.due));
+  }
+  const Duration latency =
+      (clock_.paced() ? clock_.host_at(written) : clock_.now()) - scan.last_firing;
   const PublishStatus points = publisher_.publish_points(scan);
 
   counters_.published.add();
@@ -78,6 +82,7 @@ void ScanPublishing::publish(const LevelledScan& scan) {
   status.latency = latency;
   status.late_scans_total = counters_.late.value();
   status.publish_timeouts_total = counters_.timed_out.value();
+  status.effort = static_cast<std::uint8_t>(result.effort);
   complete_(status);
   status_publisher_.publish(status);
 }

@@ -5,11 +5,11 @@
 #include <functional>
 
 #include "core/counter.hpp"
-#include "core/ring/spsc_ring.hpp"
-#include "core/scan/scan.hpp"
+#include "core/histogram.hpp"
+#include "daemon/clock/clock.hpp"
 #include "daemon/dds/publisher.hpp"
 #include "daemon/dds/scan_status.hpp"
-#include "daemon/playback_clock.hpp"
+#include "daemon/result.hpp"
 
 namespace convexcut::daemon {
 
@@ -19,15 +19,14 @@ struct PublishingCounters {
   Counter timed_out;
 };
 
-// Takes results from the worker and writes each so that the write returns `latency` after the
-// scan's last firing; one that comes later is written at once, marked late and counted. Not a
-// realtime thread: DDS allocates and locks.
+// Takes results from the worker and writes each so that the write returns when it is due; a scan
+// that comes later is written at once, marked late and counted. Not a realtime thread: DDS
+// allocates and locks.
 class ScanPublishing {
  public:
   // `complete` fills in the totals of a status: what other parts of the daemon have counted.
-  ScanPublishing(const Participant& participant, const config::Dds& settings, Duration latency,
-                 const PlaybackClock& clock, SpscRing<LevelledScan>& results,
-                 std::function<void(ScanStatus&)> complete);
+  ScanPublishing(const Participant& participant, const config::Dds& settings, const Clock& clock,
+                 ResultRing& results, std::function<void(ScanStatus&)> complete);
 
   // The thread's body: returns on stop, or when `worker_done` is set and the ring is empty.
   void run(const std::atomic<bool>& stop, const std::atomic<bool>& worker_done);
@@ -35,18 +34,22 @@ class ScanPublishing {
   [[nodiscard]] bool has_reader() const {
     return publisher_.structure().has_reader() || publisher_.points().has_reader();
   }
+  // Any thread.
   [[nodiscard]] const PublishingCounters& counters() const noexcept { return counters_; }
+  // How far from its due time each write of structure returned, early or late, while somebody
+  // listens; scans that were late already when they came are left out.
+  [[nodiscard]] const LatencyHistogram& jitter() const noexcept { return jitter_; }
 
  private:
-  void publish(const LevelledScan& scan);
+  void publish(const Result& result);
 
   ScanPublisher publisher_;
   StatusPublisher status_publisher_;
-  Duration latency_;
-  const PlaybackClock& clock_;
-  SpscRing<LevelledScan>& results_;
+  const Clock& clock_;
+  ResultRing& results_;
   std::function<void(ScanStatus&)> complete_;
   PublishingCounters counters_;
+  LatencyHistogram jitter_;
   Duration lead_{0};  // average time of a write
 };
 

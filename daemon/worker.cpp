@@ -2,6 +2,7 @@
 #include "daemon/worker.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 namespace convexcut::daemon {
 namespace {
@@ -11,116 +12,190 @@ namespace {
 // come.
 constexpr Duration kCollectTime = std::chrono::milliseconds{1};
 
-// The grid follows the rotor only at these speeds (the contract's 9–11 Hz, plus measurement error).
-constexpr double kSlowestLocked_hz = 8.9;
-constexpr double kFastestLocked_hz = 11.1;
-
 // How often the worker looks again when a scan was due but its last packet has not come.
 constexpr Duration kLookAgain = std::chrono::microseconds{500};
 
 // Far fewer than a revolution has, even at 20 Hz: they close at most two scans.
 constexpr std::size_t kPacketsAtOnce = 16;
 
-// Without lidar data for this long, results are empty and say so.
-constexpr Duration kSilence = std::chrono::milliseconds{300};
+// What was received before the host's clock was set has left the sockets and the rings by then.
+constexpr Duration kStepGuard = std::chrono::seconds{1};
 
 }  // namespace
 
-Worker::Worker(const PipelineOptions& pipeline, const WorkerOptions& options, PlaybackClock& clock,
-               SpscRing<ReturnBatch>& lidar, SpscRing<ImuSample>& imu,
-               SpscRing<LevelledScan>& results)
+Worker::Worker(const PipelineOptions& pipeline, const WorkerOptions& options, Clock& clock,
+               SpscRing<ReturnBatch>& lidar, SpscRing<ImuSample>& imu, ResultRing& results)
     : options_(options),
       clock_(clock),
       lidar_(lidar),
       imu_(imu),
       results_(results),
-      pipeline_(pipeline) {}
+      pipeline_(pipeline),
+      grid_(options.period) {}
 
 void Worker::run(const std::atomic<bool>& stop, const std::atomic<bool>& lidar_ended,
                  const std::atomic<bool>& imu_ended) noexcept {
-  HostTime tick = clock_.now() + options_.period;
-  last_result_end_ = clock_.now();
+  grid_.start(clock_.now());
+  HostTime wake = grid_.instant();
   // Relaxed: the flag only ends the loop, it publishes nothing.
   while (!stop.load(std::memory_order_relaxed)) {
-    clock_.wait_until(tick);
+    clock_.wait_until(wake);
+    follow_clock();
     // Read before draining. Acquire: pairs with the release store of the source thread after its
     // last commit, so that what drain() finds then is all there is.
     const bool no_more_lidar = lidar_ended.load(std::memory_order_acquire);
     const bool no_more_imu = imu_ended.load(std::memory_order_acquire);
     const HostTime now = clock_.now();
-    const bool drained = drain();
+    const bool drained = drain(now);
     if (no_more_imu) pipeline_.end_of_imu();
     if (no_more_lidar && drained) pipeline_.end_of_lidar();
-    const unsigned handed_over = hand_over(now);
-    if (no_more_lidar && drained && pipeline_.waiting() == 0) return;
-    if (!clock_.paced()) {
-      if (handed_over == 0) clock_.pause(kLookAgain);
-    } else if (handed_over > 0) {
-      tick = drained ? next_tick(tick) : now;
-    } else if (now >= last_result_end_ + kSilence) {
-      hand_over_empty(now);
-      tick = now + options_.period;
-    } else {
-      tick = now + kLookAgain;
+    if (clock_.paced() && !no_more_lidar) {
+      end_of_silent_lidar(now);
+      wake = serve_instant(now);
+      continue;
     }
+    const unsigned handed_over = hand_over_all(now);
+    if (no_more_lidar && drained && pipeline_.waiting() == 0) return;
+    if (handed_over == 0) clock_.pause(kLookAgain);
   }
 }
 
-bool Worker::drain() noexcept {
+void Worker::follow_clock() noexcept {
+  const Duration step = clock_.take_step();
+  if (step == Duration::zero()) return;
+  counters_.clock_steps.add();
+  grid_.shift(step);
+  newest_arrival_ += step;
+  // Whatever waits may have been stamped before or after.
+  const std::size_t packets = lidar_.consume([](ReturnBatch&) noexcept {});
+  const std::size_t samples = imu_.consume([](ImuSample&) noexcept {});
+  counters_.dropped_by_clock_step.add(packets + samples);
+  pipeline_.restart_time();
+  step_guard_until_ = clock_.now() + kStepGuard;
+  step_guard_width_ = std::chrono::abs(step) / 2;
+}
+
+bool Worker::drain(HostTime now) noexcept {
   // Orientations first: a scan that the lidar's packets close finds its own.
-  imu_.consume([this](ImuSample& sample) noexcept { pipeline_.on_imu(sample); });
+  imu_.consume([this, now](ImuSample& sample) noexcept {
+    if (!stamped_before_step(sample.arrival, now)) pipeline_.on_imu(sample);
+  });
+  const auto take = [this, now](ReturnBatch& batch) noexcept {
+    if (stamped_before_step(batch.arrival, now)) return;
+    newest_arrival_ = std::max(newest_arrival_, batch.arrival);
+    silent_ = false;
+    pipeline_.on_lidar(batch);
+  };
   // A few packets at a time, so that no more scans are closed than can wait.
   while (pipeline_.waiting() + 1 < Pipeline::kMaxWaiting) {
-    if (lidar_.consume([this](ReturnBatch& batch) noexcept { pipeline_.on_lidar(batch); },
-                       kPacketsAtOnce) == 0) {
-      return true;
-    }
+    if (lidar_.consume(take, kPacketsAtOnce) == 0) return true;
   }
   return false;
 }
 
-unsigned Worker::hand_over(HostTime now) noexcept {
+bool Worker::stamped_before_step(HostTime arrival, HostTime now) noexcept {
+  if (now >= step_guard_until_) return false;
+  if (std::chrono::abs(arrival - now) < step_guard_width_) return false;
+  counters_.dropped_by_clock_step.add();
+  return true;
+}
+
+// What there is of a revolution when the sensor falls silent is a scan.
+void Worker::end_of_silent_lidar(HostTime now) noexcept {
+  if (silent_ || now < newest_arrival_ + options_.period) return;
+  silent_ = true;
+  pipeline_.end_of_lidar();
+}
+
+HostTime Worker::serve_instant(HostTime now) noexcept {
+  if (now < grid_.instant()) return grid_.instant();
+  counters_.missed_instants.add(grid_.catch_up(now));
+  counters_.superseded_scans.add(pipeline_.drop_superseded(now, grid_.oldest_end()));
+  counters_.dropped_scans.add(pipeline_.scans_dropped() - counters_.dropped_scans.value());
+  Result* slot = results_.claim();
+  if (slot == nullptr) {
+    counters_.dropped_results.add();
+    grid_.advance();
+    return grid_.instant();
+  }
+  // A scan of a free-running grid is published with its instant, one of a locked grid with itself.
+  const bool locked = grid_.locked();
+  slot->due = clock_.steady_at(grid_.instant() + options_.latency);
+  if (hand_over(now, *slot)) {
+    const HostTime last_firing = slot->scan.last_firing;
+    if (locked) slot->due = clock_.steady_at(last_firing + options_.latency);
+    results_.commit();
+    grid_.advance_with_scan(last_firing, pipeline_.scan_period());
+  } else if (now < give_up()) {
+    return now + kLookAgain;
+  } else {
+    hand_over_empty(*slot);
+    results_.commit();
+    grid_.advance();
+  }
+  return grid_.locked() ? grid_.instant() + kCollectTime : grid_.instant();
+}
+
+// A locked grid waits for its scan for half a period, less when the sensor has long been silent.
+HostTime Worker::give_up() const noexcept {
+  if (!grid_.locked()) return grid_.instant();
+  const HostTime last_sign = std::min(grid_.instant(), newest_arrival_);
+  return std::max(grid_.instant(), last_sign + options_.period / 2);
+}
+
+bool Worker::hand_over(HostTime now, Result& slot) noexcept {
+  const auto begun = Clock::Steady::now();
+  if (!pipeline_.next_scan(now, slot.scan)) return false;
+  const Duration used = Clock::Steady::now() - begun;
+  compute_time_.record(used);
+  slot.effort = effort_.effort();
+  if (slot.effort != Effort::full) counters_.reduced_scans.add();
+  if (clock_.paced() && options_.reduce_effort) adapt_effort(used, now, slot.scan.last_firing);
+  slot.scan.index = next_index_++;
+  counters_.scans.add();
+  counters_.dropped_no_orientation.add(slot.scan.dropped_no_orientation);
+  return true;
+}
+
+// A scan has the time from when it could be begun until it is due; when its data came late, no less
+// than it has after waiting for its last orientation as long as it may (see Daemon): less work
+// would not have helped.
+void Worker::adapt_effort(Duration used, HostTime begun, HostTime last_firing) noexcept {
+  const Duration until_due = last_firing + options_.latency - begun;
+  effort_.observe(used, std::max(until_due, options_.latency / 2));
+  pipeline_.set_effort(effort_.effort());
+}
+
+void Worker::hand_over_empty(Result& slot) noexcept {
+  slot.scan.clear();
+  slot.effort = Effort::full;
+  slot.scan.index = next_index_++;
+  slot.scan.end = ScanEnd::no_data;
+  slot.scan.stamp = grid_.instant() - options_.period;
+  slot.scan.last_firing = grid_.instant();
+  counters_.empty_results.add();
+}
+
+unsigned Worker::hand_over_all(HostTime now) noexcept {
   unsigned count = 0;
   for (;;) {
-    LevelledScan* slot = results_.claim();
-    if (slot == nullptr) return count;  // the ring has counted it; the scan waits in the pipeline
-    if (!pipeline_.next_scan(now, *slot)) return count;
-    slot->index = next_index_++;
-    last_result_end_ = std::max(last_result_end_, slot->last_firing);
-    counters_.scans.add();
-    counters_.dropped_no_orientation.add(slot->dropped_no_orientation);
+    Result* slot = results_.claim();
+    if (slot == nullptr) return count;  // the scan waits in the pipeline
+    if (!hand_over(now, *slot)) return count;
+    if (clock_.paced()) slot->due = clock_.steady_at(slot->scan.last_firing + options_.latency);
     counters_.dropped_scans.add(pipeline_.scans_dropped() - counters_.dropped_scans.value());
     results_.commit();
     ++count;
   }
 }
 
-void Worker::hand_over_empty(HostTime now) noexcept {
-  LevelledScan* slot = results_.claim();
-  if (slot == nullptr) return;
-  slot->clear();
-  slot->index = next_index_++;
-  slot->end = ScanEnd::no_data;
-  slot->stamp = now - options_.period;
-  slot->last_firing = now;
-  counters_.empty_results.add();
-  results_.commit();
-}
-
-HostTime Worker::next_tick(HostTime tick) const noexcept {
-  const double hz = pipeline_.rotor_hz();
-  if (hz < kSlowestLocked_hz || hz > kFastestLocked_hz) return tick + options_.period;
-  const Duration turn{static_cast<Duration::rep>(1e9 / hz)};
-  return last_result_end_ + turn + kCollectTime;
-}
-
-void reserve_slots(SpscRing<LevelledScan>& results) {
+void reserve_slots(ResultRing& results, std::size_t max_points) {
   for (std::size_t i = 0; i < results.capacity(); ++i) {
-    LevelledScan* slot = results.claim();
-    reserve(*slot, Pipeline::kMaxReturnsPerScan);
+    Result* slot = results.claim();
+    reserve(slot->scan, max_points);
     results.commit();
   }
-  results.consume([](LevelledScan&) noexcept {});
+  results.consume([](Result&) noexcept {});
 }
 
 }  // namespace convexcut::daemon

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/demo_room/mtdata2_writer.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <stdexcept>
 
 #include "drivers/wire.hpp"
-#include "drivers/xsens/xbus.hpp"
+#include "drivers/xsens/xbus_writer.hpp"
 
 namespace convexcut::sim {
 
@@ -41,17 +40,7 @@ std::vector<std::byte> MtData2Writer::frame() const {
   if (items_.size() >= xsens::kExtendedLength) {
     throw std::length_error("more than 254 bytes of items in an MTData2 message");
   }
-  std::vector<std::byte> frame(xsens::kHeaderSize + items_.size() + xsens::kChecksumSize);
-  frame[xsens::kPreambleOffset] = std::byte{xsens::kPreamble};
-  frame[xsens::kBusIdOffset] = std::byte{xsens::kBusId};
-  frame[xsens::kMessageIdOffset] = static_cast<std::byte>(xsens::MessageId::mtdata2);
-  frame[xsens::kLengthOffset] = static_cast<std::byte>(items_.size());
-  std::ranges::copy(items_, frame.begin() + xsens::kHeaderSize);
-  // All bytes after the preamble, with the checksum, add up to 0 modulo 256.
-  unsigned sum = 0;
-  for (const std::byte b : std::span(frame).subspan(1)) sum += std::to_integer<unsigned>(b);
-  frame.back() = static_cast<std::byte>(0U - sum);
-  return frame;
+  return xsens::make_frame(xsens::MessageId::mtdata2, items_);
 }
 
 }  // namespace convexcut::sim

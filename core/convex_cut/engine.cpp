@@ -44,7 +44,8 @@ ConvexCutEngine::ConvexCutEngine(const ConvexCutParameters& parameters, std::siz
   }
 }
 
-CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels) noexcept {
+CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels,
+                                 std::uint32_t plane_stride) noexcept {
   if (cloud.size() > max_points()) return CutStatus::too_many_points;
   const CloudCheck check = check_cloud(cloud, labels.size());
   if (check.status != CutStatus::ok) return check.status;
@@ -53,7 +54,7 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
   next_plane_.store(0, std::memory_order_relaxed);  // published by the team
   auto work = [&](unsigned member) noexcept {
     workers_[member]->begin(index_, check.extent_m);
-    process_slices(*workers_[member]);
+    process_slices(*workers_[member], plane_stride);
   };
   team_.run(work);
 
@@ -71,14 +72,15 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
   return CutStatus::ok;
 }
 
-void ConvexCutEngine::process_slices(SliceWorker& worker) noexcept {
-  const auto end = static_cast<std::uint32_t>(planes_.size());
+void ConvexCutEngine::process_slices(SliceWorker& worker, std::uint32_t plane_stride) noexcept {
+  const auto end = (static_cast<std::uint32_t>(planes_.size()) + plane_stride - 1) / plane_stride;
   // Relaxed: the counter only deals the planes out. Which thread takes one does not matter: the
   // labels are a union.
   for (std::uint32_t begin = next_plane_.fetch_add(kPlanesAtOnce, std::memory_order_relaxed);
        begin < end; begin = next_plane_.fetch_add(kPlanesAtOnce, std::memory_order_relaxed)) {
     for (std::uint32_t i = begin; i < std::min(begin + kPlanesAtOnce, end); ++i) {
-      worker.process(planes_[i], windows_[i]);
+      const std::size_t plane = std::size_t{i} * plane_stride;
+      worker.process(planes_[plane], windows_[plane]);
     }
   }
 }

@@ -30,14 +30,17 @@ class ConvexCutEngine {
   ConvexCutEngine(const ConvexCutParameters& parameters, std::size_t max_points, unsigned threads);
 
   // Labels every point of a cloud in frame level. One thread at a time. On any answer but `ok` no
-  // label has been written. RT: no allocation, no lock; a system call only to wake the team.
-  [[nodiscard]] CutStatus label(const CloudView& cloud, std::span<Label> labels) noexcept;
+  // label has been written. plane_stride ≥ 1: only the planes 0, s, 2s, … cut; where s divides
+  // their number, that is exactly Convex Cut with that many planes less. RT: no allocation, no
+  // lock; a system call only to wake the team.
+  [[nodiscard]] CutStatus label(const CloudView& cloud, std::span<Label> labels,
+                                std::uint32_t plane_stride = 1) noexcept;
 
   [[nodiscard]] const ConvexCutParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] std::size_t max_points() const noexcept { return max_points_; }
 
  private:
-  void process_slices(SliceWorker& worker) noexcept;
+  void process_slices(SliceWorker& worker, std::uint32_t plane_stride) noexcept;
 
   ConvexCutParameters parameters_;
   std::vector<SlicingPlane> planes_;

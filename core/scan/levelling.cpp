@@ -101,10 +101,12 @@ void reserve(LevelledScan& scan, std::size_t max_points) {
 }
 
 void level(const Scan& scan, HostTime stamp, const OrientationTrack& orientations,
-           const Quaternion& q_imu_from_lidar, LevelledScan& levelled) noexcept {
+           const Quaternion& q_imu_from_lidar, LevelledScan& levelled,
+           std::size_t firing_stride) noexcept {
   copy_header(scan, stamp, levelled);
   Writer points(scan, levelled);
-  for (const ScanFiring& firing : scan.firings) {
+  for (std::size_t i = 0; i < scan.firings.size(); i += firing_stride) {
+    const ScanFiring& firing = scan.firings[i];
     if (firing.return_count == 0) continue;
     const Orientation orientation = orientations.at(stamp + (firing.time - scan.first_firing));
     if (orientation.quality == OrientationQuality::missing) {
@@ -118,10 +120,17 @@ void level(const Scan& scan, HostTime stamp, const OrientationTrack& orientation
 }
 
 void level(const Scan& scan, HostTime stamp, const Quaternion& q_level_from_lidar,
-           LevelledScan& levelled) noexcept {
+           LevelledScan& levelled, std::size_t firing_stride) noexcept {
   copy_header(scan, stamp, levelled);
   Writer points(scan, levelled);
-  points.write(0, scan.size(), to_matrix(q_level_from_lidar));
+  const Rotation r_level_from_lidar = to_matrix(q_level_from_lidar);
+  if (firing_stride == 1) {
+    points.write(0, scan.size(), r_level_from_lidar);
+  } else {
+    for (std::size_t i = 0; i < scan.firings.size(); i += firing_stride) {
+      points.write(scan.firings[i].first_return, scan.firings[i].return_count, r_level_from_lidar);
+    }
+  }
   points.finish();
 }
 

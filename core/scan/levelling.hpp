@@ -19,17 +19,19 @@ void reserve(LevelledScan& scan, std::size_t max_points);
 // the points of `scan` in its order. `stamp` is the host's time of scan.first_firing; the other
 // firings follow by the sensor's clock, whose skew makes nothing of a scan's 0.1 s (200 ppm: 20
 // µs). Points beyond the capacity of `levelled` are dropped and counted in its overflow_returns.
-// RT: no allocation, no lock, no system call.
+// firing_stride ≥ 1: only every firing_stride-th firing is taken. RT: no allocation, no lock, no
+// system call.
 
 // Each firing by the orientation at its own time, which takes the rotation during the scan out of
 // it: p_level = q_level_from_imu(t) · q_imu_from_lidar · p_lidar. All lasers of a firing (36 µs of
 // an HDL-32E) share it: at 300 °/s that is 0.01°. Points of firings whose orientation is missing
 // are dropped and counted in dropped_no_orientation.
 void level(const Scan& scan, HostTime stamp, const OrientationTrack& orientations,
-           const Quaternion& q_imu_from_lidar, LevelledScan& levelled) noexcept;
+           const Quaternion& q_imu_from_lidar, LevelledScan& levelled,
+           std::size_t firing_stride = 1) noexcept;
 
 // All firings by one orientation, that of a fixed mount.
 void level(const Scan& scan, HostTime stamp, const Quaternion& q_level_from_lidar,
-           LevelledScan& levelled) noexcept;
+           LevelledScan& levelled, std::size_t firing_stride = 1) noexcept;
 
 }  // namespace convexcut

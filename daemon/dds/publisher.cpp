@@ -27,8 +27,18 @@ ScanPublisher::ScanPublisher(const Participant& participant, const config::Dds& 
       structure_message_(settings.level_frame, CloudContent::structure_only, kExpectedPoints),
       points_message_(settings.level_frame, CloudContent::all_points, kExpectedPoints) {}
 
+void ScanPublisher::prepare_structure(const LevelledScan& scan) {
+  prepared_structure_ = structure_.has_reader() ? &structure_message_.fill(scan) : nullptr;
+}
+
+PublishStatus ScanPublisher::publish_prepared_structure() {
+  if (prepared_structure_ == nullptr) return PublishStatus::no_reader;
+  return structure_.write(prepared_structure_);
+}
+
 PublishStatus ScanPublisher::publish_structure(const LevelledScan& scan) {
-  return publish_cloud(structure_, structure_message_, scan);
+  prepare_structure(scan);
+  return publish_prepared_structure();
 }
 
 PublishStatus ScanPublisher::publish_points(const LevelledScan& scan) {
@@ -68,6 +78,8 @@ PublishStatus StatusPublisher::publish(const ScanStatus& status) {
   message.lost_imu_samples_total = status.lost_imu_samples_total;
   message.ring_overruns_total = status.ring_overruns_total;
   message.publish_timeouts_total = status.publish_timeouts_total;
+  message.effort = status.effort;
+  message.reduced_scans_total = status.reduced_scans_total;
   return status_.write(&message);
 }
 

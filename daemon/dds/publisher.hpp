@@ -24,7 +24,10 @@ class ScanPublisher {
   // DdsError when a topic cannot be made.
   ScanPublisher(const Participant& participant, const config::Dds& settings);
 
-  // The structure goes first: it is what has a deadline, and the smaller of the two.
+  // The structure goes first: it is what has a deadline, and the smaller of the two. Preparing it
+  // does all that need not wait for its instant.
+  void prepare_structure(const LevelledScan& scan);
+  PublishStatus publish_prepared_structure();
   PublishStatus publish_structure(const LevelledScan& scan);
   PublishStatus publish_points(const LevelledScan& scan);
 
@@ -36,6 +39,7 @@ class ScanPublisher {
   TopicWriter points_;
   CloudMessage structure_message_;
   CloudMessage points_message_;
+  const void* prepared_structure_ = nullptr;  // null: nobody listened
 };
 
 // IMU samples as sensor_msgs/Imu in dds.imu_frame. What a sample does not hold has −1 as the first

@@ -26,6 +26,6 @@ inline const Ros2Type kImuType{
     "RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b"};
 inline const Ros2Type kScanStatusType{
     &convexcut_msg_dds__ScanStatus__desc,
-    "RIHS01_12b882d5896b5060da3839516429349478564036015c07df24c06b36664711e7"};
+    "RIHS01_9b616e74a4e3f41811b9c0a005d6a473b82ba7c2420566713fc4c3e0f627d05a"};
 
 }  // namespace convexcut::daemon

@@ -26,6 +26,8 @@ struct ScanStatus {
   std::uint64_t lost_imu_samples_total = 0;
   std::uint64_t ring_overruns_total = 0;
   std::uint64_t publish_timeouts_total = 0;
+  std::uint8_t effort = 0;  // Effort: 0 is full, see docs/ros2.md
+  std::uint64_t reduced_scans_total = 0;
 };
 
 }  // namespace convexcut::daemon

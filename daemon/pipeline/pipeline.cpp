@@ -17,10 +17,10 @@ constexpr std::size_t kOrientations = 1024;
 
 Pipeline::Pipeline(const PipelineOptions& options)
     : options_(options),
-      cutter_(options.cut, kMaxReturnsPerScan, kMaxFiringsPerScan),
+      cutter_(options.cut, options.max_returns_per_scan, kMaxFiringsPerScan),
       track_(kOrientations, options.orientation_max_age),
-      engine_(options.convex_cut, kMaxReturnsPerScan, options.threads) {
-  for (Scan& scan : waiting_) reserve(scan, kMaxReturnsPerScan, kMaxFiringsPerScan);
+      engine_(options.convex_cut, options.max_returns_per_scan, options.threads) {
+  for (Scan& scan : waiting_) reserve(scan, options.max_returns_per_scan, kMaxFiringsPerScan);
 }
 
 void Pipeline::on_lidar(const ReturnBatch& batch) noexcept {
@@ -79,20 +79,57 @@ bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
 
   const HostTime stamp = to_host(scan.first_firing);
   if (options_.fixed_mount) {
-    level(scan, stamp, options_.q_level_from_lidar, out);
+    level(scan, stamp, options_.q_level_from_lidar, out, firing_stride(effort_));
   } else {
-    level(scan, stamp, track_, options_.q_imu_from_lidar, out);
+    level(scan, stamp, track_, options_.q_imu_from_lidar, out, firing_stride(effort_));
   }
   // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
   // ever, every point would keep the label `other`.
-  static_cast<void>(engine_.label(out.cloud(), out.label));
+  static_cast<void>(engine_.label(out.cloud(), out.label, plane_stride(effort_)));
   out.structure_points = 0;
   for (const Label label : out.label) out.structure_points += label == Label::structure ? 1U : 0U;
+  scan_period_ = period_after(scan);
+  pop_waiting();
+  return true;
+}
 
+std::size_t Pipeline::drop_superseded(HostTime now, HostTime oldest_end) noexcept {
+  std::size_t dropped = 0;
+  while (waiting_count_ > 0) {
+    const bool too_old = to_host(waiting_[first_waiting_].last_firing) < oldest_end;
+    const bool newer_ready =
+        waiting_count_ > 1 && ready(waiting_[(first_waiting_ + 1) % kMaxWaiting], now);
+    if (!too_old && !newer_ready) break;
+    pop_waiting();
+    ++dropped;
+  }
+  return dropped;
+}
+
+void Pipeline::restart_time() noexcept {
+  const auto drop = [this](Scan&) { ++scans_dropped_; };
+  sequencer_.flush([](const ReturnBatch&, LidarTime) {});
+  cutter_.finish(drop);
+  scans_dropped_ += waiting_count_;
+  waiting_count_ = first_waiting_ = 0;
+  hour_clock_.reset();
+  lidar_clock_.reset();
+  imu_clock_.reset();
+  imu_clock_steps_ = 0;
+  track_.clear();
+}
+
+Duration Pipeline::period_after(const Scan& scan) const noexcept {
+  if (scan.end != ScanEnd::cut) return Duration::zero();
+  if (options_.cut.mode == CutOptions::Mode::clock) return options_.cut.window;
+  if (scan.rotor_hz <= 0.0) return Duration::zero();
+  return Duration{static_cast<Duration::rep>(1e9 / scan.rotor_hz)};
+}
+
+void Pipeline::pop_waiting() noexcept {
   first_waiting_ = (first_waiting_ + 1) % kMaxWaiting;
   // An empty queue starts over, so that the same few scans' memory stays in use.
   if (--waiting_count_ == 0) first_waiting_ = 0;
-  return true;
 }
 
 HostTime Pipeline::to_host(LidarTime t) const noexcept {

@@ -24,6 +24,7 @@
 #include "core/scan/packet_sequencer.hpp"
 #include "core/scan/scan.hpp"
 #include "core/scan/scan_cutter.hpp"
+#include "daemon/pipeline/effort.hpp"
 
 namespace convexcut::daemon {
 
@@ -34,10 +35,17 @@ enum class LidarTimeSource : std::uint8_t {
   pps,       // the sensor's own UTC: PPS locked, and not at odds with the host's clock
 };
 
+// One revolution at 5 Hz, the slowest of these sensors, with both echoes of every firing: 4340
+// firings × 32 lasers × 2; and half of it, where one echo is taken.
+inline constexpr std::size_t kMostReturnsPerScan = 280'000;
+inline constexpr std::size_t kMostSingleReturnsPerScan = kMostReturnsPerScan / 2;
+
 struct PipelineOptions {
   CutOptions cut;
   ConvexCutParameters convex_cut;
   unsigned threads = 1;
+  // What a scan has beyond it is dropped and counted in overflow_returns.
+  std::size_t max_returns_per_scan = kMostReturnsPerScan;
   bool fixed_mount = false;
   Quaternion q_level_from_lidar = Quaternion::Identity();  // of the fixed mount
   Quaternion q_imu_from_lidar = Quaternion::Identity();
@@ -51,8 +59,7 @@ struct PipelineOptions {
 
 class Pipeline {
  public:
-  // One revolution at 5 Hz with both echoes of every firing: 4340 firings × 32 lasers × 2.
-  static constexpr std::size_t kMaxReturnsPerScan = 280'000;
+  static constexpr std::size_t kMaxReturnsPerScan = kMostReturnsPerScan;
   static constexpr std::size_t kMaxFiringsPerScan = 8'800;
 
   // How many cut scans can wait for their orientations.
@@ -63,14 +70,29 @@ class Pipeline {
   // In order of arrival.
   void on_lidar(const ReturnBatch& batch) noexcept;
   void on_imu(const ImuSample& sample) noexcept;
-  // No more will come: the last revolution is closed, waiting scans no longer wait for
-  // orientations.
+  // No more will come, or none for a while: the revolution at hand is closed. At the end of the
+  // IMU, waiting scans no longer wait for orientations.
   void end_of_lidar() noexcept;
   void end_of_imu() noexcept { imu_ended_ = true; }
 
   // Levels and labels the oldest scan into `out` if it is ready at `now`: its orientations are all
   // there, or will not come in time. False: none is ready.
   [[nodiscard]] bool next_scan(HostTime now, LevelledScan& out) noexcept;
+
+  // Of the scans that next_scan() gives from now on.
+  void set_effort(Effort effort) noexcept { effort_ = effort; }
+
+  // Drops the oldest scans as long as they ended before `oldest_end`, or as the one behind is ready
+  // as well; how many.
+  std::size_t drop_superseded(HostTime now, HostTime oldest_end) noexcept;
+
+  // The host's clock was set: nothing that is known of times holds any longer. The scan at hand and
+  // those that wait are dropped (and counted), all mappings start anew.
+  void restart_time() noexcept;
+
+  // From the end of the newest scan given by next_scan() to the expected end of the next; 0 when it
+  // did not end with a cut, or the rotor's speed is not known.
+  [[nodiscard]] Duration scan_period() const noexcept { return scan_period_; }
 
   // Scans that are cut but not yet ready.
   [[nodiscard]] std::size_t waiting() const noexcept { return waiting_count_; }
@@ -83,7 +105,7 @@ class Pipeline {
   [[nodiscard]] const PacketSequencer& sequencer() const noexcept { return sequencer_; }
   [[nodiscard]] double rotor_hz() const noexcept { return rotor_hz_; }
   [[nodiscard]] std::uint64_t scans_cut() const noexcept { return scans_cut_; }
-  // Scans that were dropped because too many waited (the caller never called next_scan).
+  // Scans that were dropped because too many waited, or the host's clock was set.
   [[nodiscard]] std::uint64_t scans_dropped() const noexcept { return scans_dropped_; }
   [[nodiscard]] std::uint64_t orientations_refused() const noexcept {
     return orientations_refused_;
@@ -93,6 +115,8 @@ class Pipeline {
  private:
   void wait_for_orientation(Scan& scan) noexcept;
   [[nodiscard]] bool ready(const Scan& scan, HostTime now) const noexcept;
+  [[nodiscard]] Duration period_after(const Scan& scan) const noexcept;
+  void pop_waiting() noexcept;
 
   PipelineOptions options_;
   HourClock hour_clock_;
@@ -107,10 +131,12 @@ class Pipeline {
   std::size_t first_waiting_ = 0;
   std::size_t waiting_count_ = 0;
 
+  Effort effort_ = Effort::full;
   PpsState pps_ = PpsState::unknown;
   bool imu_ended_ = false;
   std::uint32_t imu_clock_steps_ = 0;
   double rotor_hz_ = 0.0;
+  Duration scan_period_{0};
   std::uint64_t scans_cut_ = 0;
   std::uint64_t scans_dropped_ = 0;
   std::uint64_t orientations_ = 0;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// From the configuration's words to the drivers' options.
+#include "daemon/sources/driver_options.hpp"
+
+#include <string>
+
+#include "config/loader.hpp"
 #include "config/text_rules.hpp"
-#include "daemon/sources/recordings.hpp"
 
 namespace convexcut::daemon {
 namespace {
@@ -23,6 +25,23 @@ namespace {
   return std::nullopt;
 }
 
+// An IPv4 address that the configuration has checked; nothing for an empty one.
+[[nodiscard]] std::optional<Ipv4Address> address(const std::string& text) {
+  const auto value = config::parse_ipv4(text);
+  if (!value) return std::nullopt;
+  return Ipv4Address{*value};
+}
+
+void require_baud(const char* key, std::uint32_t baud) {
+  if (baud == 0 || serial::is_supported(baud)) return;
+  std::string rates;
+  for (const std::uint32_t rate : serial::supported_bauds()) {
+    rates += (rates.empty() ? "" : ", ") + std::to_string(rate);
+  }
+  throw config::ConfigError(std::string(key) + ": expected 0 or one of " + rates + ", found " +
+                            std::to_string(baud));
+}
+
 }  // namespace
 
 velodyne::LidarDriverOptions lidar_driver_options(const config::Lidar& lidar) {
@@ -31,9 +50,7 @@ velodyne::LidarDriverOptions lidar_driver_options(const config::Lidar& lidar) {
   options.data_port = lidar.data_port;
   options.position_port = lidar.position_port;
   options.vertical_offsets = lidar.vertical_offsets;
-  if (const auto address = config::parse_ipv4(lidar.source_address)) {
-    options.from = Ipv4Address{*address};
-  }
+  options.from = address(lidar.source_address);
   options.time_offset = std::chrono::microseconds{lidar.time_offset_us};
   return options;
 }
@@ -56,6 +73,27 @@ can::CanImuOptions can_driver_options(const config::Can& settings) {
   options.ids[Message::rate_of_turn] = settings.rate_of_turn_id;
   options.ids[Message::acceleration] = settings.acceleration_id;
   options.ids.extended = settings.extended_ids;
+  return options;
+}
+
+udp::UdpSourceOptions udp_source_options(const config::Lidar& lidar) {
+  constexpr std::size_t kKib = 1024;
+  udp::UdpSourceOptions options;
+  options.data_port = lidar.data_port;
+  options.position_port = lidar.position_port;
+  options.socket.local_address = address(lidar.local_address);
+  options.socket.multicast_group = address(lidar.multicast_group);
+  options.socket.interface = lidar.interface;
+  options.socket.receive_buffer_bytes = static_cast<std::size_t>(lidar.receive_buffer_kib) * kKib;
+  return options;
+}
+
+serial::SerialSourceOptions serial_source_options(const config::Imu& imu) {
+  require_baud("imu.baud", imu.baud);
+  require_baud("imu.set_baud", imu.set_baud);
+  serial::SerialSourceOptions options;
+  options.device = imu.device;
+  options.baud = imu.baud;
   return options;
 }
 

@@ -13,6 +13,7 @@
 #include "core/imu_sample.hpp"
 #include "core/return_batch.hpp"
 #include "core/sink.hpp"
+#include "daemon/sources/driver_options.hpp"
 #include "drivers/recording/can_recording.hpp"
 #include "drivers/recording/imu_recording.hpp"
 #include "drivers/recording/lidar_recording.hpp"
@@ -26,10 +27,6 @@ struct RecordingPaths {
   // Of a raw .bin IMU stream: its first sample, relative to the first lidar packet.
   Duration imu_start{0};
 };
-
-[[nodiscard]] velodyne::LidarDriverOptions lidar_driver_options(const config::Lidar& lidar);
-[[nodiscard]] xsens::ImuDriverOptions imu_driver_options(const config::Imu& imu);
-[[nodiscard]] can::CanImuOptions can_driver_options(const config::Can& settings);
 
 // What to say of a recording that was read without finding any: one line.
 [[nodiscard]] std::string no_lidar_packets(const std::filesystem::path& file,

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/time.hpp"
 
@@ -36,22 +37,44 @@ inline constexpr std::size_t kMaxFrame = kExtendedHeaderSize + kMaxPayload + kCh
 static_assert(kLengthOffset + 1 == kHeaderSize);
 static_assert(kExtendedLengthOffset + sizeof(std::uint16_t) == kExtendedHeaderSize);
 
-// The message ids that a receiver of measurements can meet; any other is valid too and is skipped.
+// The message ids that are sent and understood; any other is valid too and is skipped.
 enum class MessageId : std::uint8_t {
+  // From the host. The device acknowledges with the id that is one higher.
+  req_device_id = 0x00,
+  go_to_measurement = 0x10,
+  req_firmware_revision = 0x12,
+  baudrate = 0x18,  // without data a request
+  req_product_code = 0x1C,
+  go_to_config = 0x30,
+  reset = 0x40,
+  set_output_configuration = 0xC0,  // without data a request
+  // From the device.
   device_id = 0x01,
   configuration = 0x0D,
   go_to_measurement_ack = 0x11,
   firmware_revision = 0x13,
+  baudrate_ack = 0x19,
   product_code = 0x1D,
   go_to_config_ack = 0x31,
   mtdata_legacy = 0x32,
   mtdata2 = 0x36,
   wake_up = 0x3E,
+  reset_ack = 0x41,
   error = 0x42,
   warning = 0x43,
   emts = 0x91,
   output_configuration = 0xC1,
 };
+
+// Makes the low byte of the sum of all bytes after the preamble, itself among them, zero. `frame`
+// is whole but for the last byte. RT.
+[[nodiscard]] inline std::byte checksum(std::span<const std::byte> frame) noexcept {
+  std::uint8_t sum = 0;
+  for (const std::byte b : frame.subspan(kBusIdOffset, frame.size() - kBusIdOffset - 1)) {
+    sum = static_cast<std::uint8_t>(sum + static_cast<std::uint8_t>(b));
+  }
+  return static_cast<std::byte>(-sum);
+}
 
 // How long `bytes` take on a serial line of `baud` bit/s at ten bits a byte (8N1). Zero for baud 0:
 // a transport without a line rate (USB).

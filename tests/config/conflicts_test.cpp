@@ -81,6 +81,22 @@ TEST(Conflicts, LidarPortOfTheDdsDomainIsAnError) {
                           "use, but port 7660 is used by DDS domain 1 for its participant 0"));
 }
 
+TEST(Conflicts, ImuRateDividesItsHighest) {
+  EXPECT_THAT(errors_of("[imu]\nrate_hz = 300\n"),
+              ElementsAre("robot.toml:2: imu.rate_hz: expected a divisor of 400, found 300"));
+  EXPECT_THAT(errors_of("[imu]\nrate_hz = 80\n"), IsEmpty());
+}
+
+TEST(Conflicts, ConfiguredImuNeedsALineThatIsFastEnough) {
+  EXPECT_THAT(errors_of("[imu]\nconfigure = true\nset_baud = 0\n"),
+              ElementsAre("robot.toml:3: imu.set_baud: expected a line of at least 292000 bit/s "
+                          "for 400 Hz, found 115200: set imu.set_baud, or a lower imu.rate_hz"));
+  EXPECT_THAT(errors_of("[imu]\nconfigure = true\n"), IsEmpty());
+  EXPECT_THAT(errors_of("[imu]\nconfigure = true\nset_baud = 0\nrate_hz = 100\n"), IsEmpty());
+  EXPECT_THAT(errors_of("[imu]\nset_baud = 0\n"), IsEmpty());  // not configured
+  EXPECT_THAT(errors_of("[imu]\nconfigure = true\nset_baud = 0\nbaud = 0\n"), IsEmpty());  // USB
+}
+
 TEST(PortCollision, MulticastPortsOfADomain) {
   EXPECT_EQ(port_collision(0, 7400, 8308), "port 7400 is used by DDS domain 0 for multicast");
   EXPECT_EQ(port_collision(0, 2368, 7401), "port 7401 is used by DDS domain 0 for multicast");

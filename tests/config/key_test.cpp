@@ -44,7 +44,7 @@ std::optional<Value> another(const Key& key) {
     for (const std::string_view name : d->names) candidates.emplace_back(std::string(name));
   }
   if (std::holds_alternative<Text>(key.domain)) {
-    candidates = {std::string("other_value"), std::string("10.0.0.7")};
+    candidates = {std::string("other_value"), std::string("10.0.0.7"), std::string("239.1.2.3")};
   }
   for (const Value& candidate : candidates) {
     if (candidate != usual && accept(key.domain, candidate)) return candidate;

@@ -54,5 +54,37 @@ TEST(TextRules, Addresses) {
   EXPECT_TRUE(is_ipv4_or_empty(""));
 }
 
+TEST(TextRules, MulticastGroups) {
+  for (const char* good : {"", "224.0.0.0", "239.255.255.255"}) {
+    EXPECT_TRUE(is_multicast_or_empty(good)) << good;
+  }
+  for (const char* bad : {"223.255.255.255", "240.0.0.0", "255.255.255.255", "239.1.1"}) {
+    EXPECT_FALSE(is_multicast_or_empty(bad)) << bad;
+  }
+}
+
+TEST(TextRules, Interfaces) {
+  for (const char* good : {"", "eth0", "enp0s31f6.100", "fifteen-letters"}) {
+    EXPECT_TRUE(is_interface_or_empty(good)) << good;
+  }
+  for (const char* bad : {".", "..", "a/b", "eth0:1", "a b", "sixteen-letters-", "a\nb"}) {
+    EXPECT_FALSE(is_interface_or_empty(bad)) << bad;
+  }
+}
+
+TEST(TextRules, Cpus) {
+  EXPECT_EQ(parse_cpus("0"), CpuSet{0b1});
+  EXPECT_EQ(parse_cpus("1,3-5"), CpuSet{0b111010});
+  EXPECT_EQ(parse_cpus("2-2"), CpuSet{0b100});
+  EXPECT_TRUE(parse_cpus("1023").value().test(1023));
+  for (const char* bad :
+       {",", "1,", ",1", "1-", "-1", "3-1", "1024", "a", "1 ,2", "1-2-3", "0x1"}) {
+    EXPECT_EQ(parse_cpus(bad), std::nullopt) << bad;
+    EXPECT_FALSE(is_cpus_or_empty(bad)) << bad;
+  }
+  EXPECT_EQ(parse_cpus(""), std::nullopt);
+  EXPECT_TRUE(is_cpus_or_empty(""));
+}
+
 }  // namespace
 }  // namespace convexcut::config

@@ -60,11 +60,8 @@ std::size_t ProgramResult::error_lines() const {
   return static_cast<std::size_t>(std::count(err.begin(), err.end(), '\n'));
 }
 
-ProgramResult run_program(const std::string& name, const std::vector<std::string>& arguments,
-                          const ProgramLimits& limits) {
-  const TemporaryDirectory directory;
-  const std::filesystem::path out = directory.path() / "out";
-  const std::filesystem::path err = directory.path() / "err";
+pid_t start_program(const std::string& name, const std::vector<std::string>& arguments,
+                    const ProgramLimits& limits, const std::filesystem::path& directory) {
   std::string program = std::string(CONVEXCUT_PROGRAMS) + "/" + name;
   std::vector<std::string> words = arguments;
   std::vector<char*> argv{program.data()};
@@ -75,15 +72,26 @@ ProgramResult run_program(const std::string& name, const std::vector<std::string
   if (child < 0) throw std::runtime_error("cannot fork");
   if (child == 0) {
     ::close(STDIN_FILENO);
-    redirect(out, STDOUT_FILENO);
-    redirect(err, STDERR_FILENO);
+    redirect(directory / "out", STDOUT_FILENO);
+    redirect(directory / "err", STDERR_FILENO);
     apply(limits);
     ::execv(program.c_str(), argv.data());
     ::_exit(127);
   }
-  const int status = wait_for(child, err, limits.terminate_at);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out),
-          text_of(err)};
+  return child;
+}
+
+ProgramResult program_result(int status, const std::filesystem::path& directory) {
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          text_of(directory / "out"), text_of(directory / "err")};
+}
+
+ProgramResult run_program(const std::string& name, const std::vector<std::string>& arguments,
+                          const ProgramLimits& limits) {
+  const TemporaryDirectory directory;
+  const pid_t child = start_program(name, arguments, limits, directory.path());
+  const int status = wait_for(child, directory.path() / "err", limits.terminate_at);
+  return program_result(status, directory.path());
 }
 
 }  // namespace convexcut::test

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace convexcut::test {
 
@@ -24,5 +27,13 @@ struct ProgramLimits {
 [[nodiscard]] ProgramResult run_program(const std::string& name,
                                         const std::vector<std::string>& arguments,
                                         const ProgramLimits& limits = {});
+
+// What run_program() is made of. Starts the program, whose output goes to the files `out` and `err`
+// in `directory`; and reads these when it has ended with a status of waitpid().
+[[nodiscard]] pid_t start_program(const std::string& name,
+                                  const std::vector<std::string>& arguments,
+                                  const ProgramLimits& limits,
+                                  const std::filesystem::path& directory);
+[[nodiscard]] ProgramResult program_result(int status, const std::filesystem::path& directory);
 
 }  // namespace convexcut::test

@@ -3,6 +3,7 @@
 // What the engine refuses, and how. Its labels are engine_oracle_test's matter.
 #include "core/convex_cut/engine.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -63,6 +64,36 @@ TEST(ConvexCutEngine, RefusesColumnsOfDifferentLengths) {
   EXPECT_EQ(status_of(cloud.view(), 99), CutStatus::size_mismatch);
   cloud.z.pop_back();
   EXPECT_EQ(status_of(cloud.view(), 100), CutStatus::size_mismatch);
+}
+
+TEST(ConvexCutEngine, EveryOtherPlaneIsConvexCutWithHalfThePlanes) {
+  test::Random random(2);
+  const test::Cloud cloud = test::furnished_room(random, 5'000);
+  for (const std::uint32_t stride : {2U, 4U, 9U}) {
+    ConvexCutEngine all({.planes = 360}, 5'000, 2);
+    ConvexCutEngine fewer({.planes = 360 / stride}, 5'000, 1);
+    std::vector<Label> found(5'000);
+    std::vector<Label> expected(5'000);
+    ASSERT_EQ(all.label(cloud.view(), found, stride), CutStatus::ok);
+    ASSERT_EQ(fewer.label(cloud.view(), expected), CutStatus::ok);
+    EXPECT_EQ(found, expected) << stride;
+    // And the next cloud is cut by all again.
+    std::vector<Label> whole(5'000);
+    ASSERT_EQ(all.label(cloud.view(), whole), CutStatus::ok);
+    EXPECT_NE(whole, expected);
+  }
+}
+
+TEST(ConvexCutEngine, AStrideThatDoesNotDivideThePlanesTakesTheLastOne) {
+  test::Random random(3);
+  const test::Cloud cloud = test::furnished_room(random, 1'000);
+  ConvexCutEngine engine({.planes = 5}, 1'000, 1);
+  std::vector<Label> every_fifth(1'000);
+  std::vector<Label> every_fourth(1'000);  // planes 0 and 4
+  ASSERT_EQ(engine.label(cloud.view(), every_fifth, 5), CutStatus::ok);
+  ASSERT_EQ(engine.label(cloud.view(), every_fourth, 4), CutStatus::ok);
+  EXPECT_GT(std::count(every_fourth.begin(), every_fourth.end(), Label::structure),
+            std::count(every_fifth.begin(), every_fifth.end(), Label::structure));
 }
 
 TEST(ConvexCutEngine, TakesAnEmptyCloud) {

@@ -118,6 +118,24 @@ TEST(Levelling, PointsWithoutAnOrientationAreDroppedAndCounted) {
   EXPECT_EQ(levelled.dropped_no_orientation, 1U);
 }
 
+TEST(Levelling, AStrideTakesWholeFirings) {
+  Scan scan;
+  for (int i = 0; i < 5; ++i) {
+    add_firing(scan, i * 1ms, {{1.0 * i, 0, 0}, {1.0 * i, 1, 0}});
+  }
+  OrientationTrack track(4);
+  track.push(kStamp, Quaternion::Identity());
+  LevelledScan by_imu = reserved(10);
+  LevelledScan fixed = reserved(10);
+  level(scan, kStamp, track, Quaternion::Identity(), by_imu, 2);
+  level(scan, kStamp, Quaternion::Identity(), fixed, 2);
+  for (const LevelledScan* levelled : {&by_imu, &fixed}) {
+    EXPECT_THAT(levelled->x, ElementsAre(0, 0, 2, 2, 4, 4));
+    EXPECT_THAT(levelled->y, ElementsAre(0, 1, 0, 1, 0, 1));
+    EXPECT_EQ(levelled->label.size(), 6U);
+  }
+}
+
 TEST(Levelling, WithoutAnyOrientationNothingIsLeft) {
   Scan scan;
   add_firing(scan, 0ms, {{1, 0, 0}, {2, 0, 0}});

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "daemon/clock/playback_clock.hpp"
 #include "tests/core/scan/synthetic_lidar.hpp"
 
 namespace convexcut::daemon {
@@ -21,7 +22,7 @@ using std::chrono::seconds;
 constexpr HostTime kStart = from_ns<HostTime>(1'700'000'000'000'000'000);
 constexpr std::uint32_t kCountAtStart = 1'000'000'000;
 
-struct Result {
+struct Taken {
   std::uint64_t index;
   ScanEnd end;
   HostTime stamp;
@@ -33,7 +34,7 @@ class WorkerTest : public ::testing::Test {
   static constexpr double kAsFastAsPossible = 0.0;
 
   WorkerTest() {
-    reserve_slots(results);
+    reserve_slots(results, Pipeline::kMaxReturnsPerScan);
     synthetic.start = LidarTime{};
     synthetic.returns_per_firing = 2;
     clock.start(kStart);
@@ -65,14 +66,17 @@ class WorkerTest : public ::testing::Test {
   void collect() {
     for (;;) {
       const bool done = worker_done.load(std::memory_order_acquire);
-      const auto take = [this](LevelledScan& scan) noexcept {
-        taken.push_back({scan.index, scan.end, scan.stamp, scan.size()});
-      };
+      const auto take = [this](Result& result) noexcept { keep(result); };
       if (results.consume(take) == 0) {
         if (done) return;
         std::this_thread::yield();
       }
     }
+  }
+
+  void keep(const Result& result) {
+    const LevelledScan& scan = result.scan;
+    taken.push_back({scan.index, scan.end, scan.stamp, scan.size()});
   }
 
   void run(Worker& worker, Duration span) {
@@ -91,9 +95,9 @@ class WorkerTest : public ::testing::Test {
   PlaybackClock clock{kAsFastAsPossible, stop};
   SpscRing<ReturnBatch> lidar{256};
   SpscRing<ImuSample> imu{16};
-  SpscRing<LevelledScan> results{4};
+  ResultRing results{4};
   test::SyntheticLidar synthetic;
-  std::vector<Result> taken;
+  std::vector<Taken> taken;
 };
 
 TEST_F(WorkerTest, HandsOverEveryRevolutionOfARecordingInOrder) {
@@ -140,16 +144,14 @@ TEST_F(WorkerTest, ASilentSensorStillGivesEmptyFlaggedResults) {
   Worker worker(pipeline_options(), {}, fast, lidar, imu, results);
   std::thread publisher([this] {
     while (taken.size() < 5) {
-      results.consume([this](LevelledScan& scan) noexcept {
-        taken.push_back({scan.index, scan.end, scan.stamp, scan.size()});
-      });
+      results.consume([this](Result& result) noexcept { keep(result); });
       std::this_thread::yield();
     }
     stop.store(true);
   });
   worker.run(stop, lidar_ended, imu_ended);
   publisher.join();
-  for (const Result& result : taken) {
+  for (const Taken& result : taken) {
     EXPECT_EQ(result.end, ScanEnd::no_data);
     EXPECT_EQ(result.points, 0U);
   }

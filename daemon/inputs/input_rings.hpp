@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/imu_sample.hpp"
+#include "core/return_batch.hpp"
+#include "core/ring/ring_sink.hpp"
+#include "core/ring/spsc_ring.hpp"
+#include "core/sink.hpp"
+
+namespace convexcut::daemon {
+
+// Where an IMU driver puts its samples in the daemon: into the worker's ring, and a copy into the
+// publisher's. The driver's thread.
+class ImuTee final : public Sink<ImuSample> {
+ public:
+  ImuTee(SpscRing<ImuSample>& worker, SpscRing<ImuSample>& publisher) noexcept
+      : worker_(worker), publisher_(publisher) {}
+
+  [[nodiscard]] ImuSample* claim() noexcept override { return claimed_ = worker_.claim(); }
+  void commit() noexcept override {
+    if (ImuSample* copy = publisher_.claim()) {
+      *copy = *claimed_;
+      publisher_.commit();
+    }
+    worker_.commit();
+  }
+
+ private:
+  SpscRing<ImuSample>& worker_;
+  SpscRing<ImuSample>& publisher_;
+  ImuSample* claimed_ = nullptr;
+};
+
+// What is between the inputs' threads and the rest of the daemon.
+struct InputRings {
+  // 0.5 s of a dual-return HDL-32E (3617 packets/s): several periods of the worker.
+  static constexpr std::size_t kLidarSlots = 2048;
+  // 2.5 s at 400 Hz.
+  static constexpr std::size_t kImuSlots = 1024;
+
+  SpscRing<ReturnBatch> lidar{kLidarSlots};
+  SpscRing<ImuSample> imu{kImuSlots};
+  SpscRing<ImuSample> imu_publish{kImuSlots};
+  // The producing ends, for the drivers.
+  RingSink<ReturnBatch> returns{lidar};
+  ImuTee samples{imu, imu_publish};
+
+  [[nodiscard]] std::uint64_t overruns() const noexcept {
+    return lidar.overruns() + imu.overruns() + imu_publish.overruns();
+  }
+};
+
+}  // namespace convexcut::daemon

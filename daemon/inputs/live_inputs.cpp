@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/inputs/live_inputs.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "daemon/inputs/lidar_totals.hpp"
+#include "daemon/log/log.hpp"
+
+namespace convexcut::daemon {
+namespace {
+
+// A receive thread looks at the stop flag this often.
+constexpr Duration kLongestWait = std::chrono::milliseconds{50};
+
+}  // namespace
+
+LiveInputs::LiveInputs(const config::Config& config, InputRings& rings,
+                       const std::atomic<bool>& stop)
+    : stop_(stop), clock_(stop), sources_(config, rings.returns, rings.samples) {}
+
+std::vector<InputThread> LiveInputs::start() {
+  std::vector<InputThread> threads;
+  bool has_imu = false;
+  for (const LiveSources::Entry& entry : sources_.entries()) {
+    has_imu = has_imu || entry.role == SourceRole::imu;
+    threads.push_back({entry.name.data(), ThreadRole::receive, [this, &source = entry.source] {
+                         // Relaxed: the flag only ends the loop, it publishes nothing.
+                         while (!stop_.load(std::memory_order_relaxed)) {
+                           source.receive(kLongestWait);
+                         }
+                       }});
+  }
+  if (!has_imu) imu_ended_.store(true, std::memory_order_release);  // see Inputs
+  return threads;
+}
+
+InputTotals LiveInputs::totals() const noexcept {
+  InputTotals totals = lidar_totals(sources_.lidar_driver());
+  totals.kernel_drops = sources_.kernel_drops();
+  if (const auto* imu = sources_.imu_driver()) {
+    totals.imu_samples = imu->counters().samples.value();
+    totals.lost_imu_samples = imu->counters().lost_messages.value();
+  }
+  return totals;
+}
+
+void LiveInputs::log_start() const {
+  for (const LiveSources::Entry& entry : sources_.entries()) {
+    log::info("input", {{"source", entry.name}, {"device", entry.device}});
+  }
+}
+
+void LiveInputs::log_changes() {
+  std::vector<std::string> now = sources_.warnings();
+  const auto in = [](const std::vector<std::string>& lines, const std::string& line) {
+    return std::find(lines.begin(), lines.end(), line) != lines.end();
+  };
+  for (const std::string& line : now) {
+    if (!in(warnings_, line)) log::warning("source", {{"problem", line}});
+  }
+  for (const std::string& line : warnings_) {
+    if (!in(now, line)) log::info("source", {{"resolved", line}});
+  }
+  warnings_ = std::move(now);
+}
+
+}  // namespace convexcut::daemon

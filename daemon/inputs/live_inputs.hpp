@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/config.hpp"
+#include "daemon/clock/live_clock.hpp"
+#include "daemon/inputs/input_rings.hpp"
+#include "daemon/inputs/inputs.hpp"
+#include "daemon/sources/live_sources.hpp"
+
+namespace convexcut::daemon {
+
+// The sensors themselves, one receive thread each, on the host's own clock.
+class LiveInputs final : public Inputs {
+ public:
+  // Throws what LiveSources throws.
+  LiveInputs(const config::Config& config, InputRings& rings, const std::atomic<bool>& stop);
+
+  [[nodiscard]] std::vector<InputThread> start() override;
+  [[nodiscard]] Clock& clock() noexcept override { return clock_; }
+  [[nodiscard]] InputTotals totals() const noexcept override;
+  void log_start() const override;
+  void log_changes() override;
+  void log_end() const override {}
+  void check_content() const override {}  // a sensor that is off is no failure
+
+ private:
+  const std::atomic<bool>& stop_;
+  LiveClock clock_;
+  LiveSources sources_;
+  std::vector<std::string> warnings_;  // that have been logged and still hold
+};
+
+}  // namespace convexcut::daemon

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace convexcut::daemon {
+
+// How much is computed for a scan, in the order in which it is reduced when time is short. Fewer
+// planes come first: every point keeps its place and label, only structure seen by the left-out
+// planes alone is missed. Fewer points come last.
+enum class Effort : std::uint8_t {
+  full,
+  half_planes,     // every second slicing plane
+  quarter_planes,  // every fourth
+  half_points,     // every fourth plane, every second firing
+};
+
+inline constexpr Effort kLeastEffort = Effort::half_points;
+
+[[nodiscard]] constexpr std::uint32_t plane_stride(Effort effort) noexcept {
+  if (effort == Effort::full) return 1;
+  return effort == Effort::half_planes ? 2 : 4;
+}
+[[nodiscard]] constexpr std::uint32_t firing_stride(Effort effort) noexcept {
+  return effort == Effort::half_points ? 2 : 1;
+}
+
+}  // namespace convexcut::daemon

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/sources/live_sources.hpp"
+
+#include <cstring>
+
+#include "config/loader.hpp"
+#include "daemon/sources/driver_options.hpp"
+
+namespace convexcut::daemon {
+namespace {
+
+std::string lidar_device(const config::Lidar& lidar) {
+  std::string device = "UDP ports " + std::to_string(lidar.data_port) + " and " +
+                       std::to_string(lidar.position_port);
+  if (!lidar.interface.empty()) device += " on " + lidar.interface;
+  return device;
+}
+
+}  // namespace
+
+LiveSources::LiveSources(const config::Config& config, Sink<ReturnBatch>& returns,
+                         Sink<ImuSample>& samples, const LiveTaps& taps)
+    : config_(config),
+      lidar_driver_(lidar_driver_options(config.lidar), returns),
+      lidar_(udp_source_options(config.lidar), lidar_driver_, taps.lidar) {
+  entries_.push_back({"lidar", SourceRole::lidar, lidar_, lidar_device(config.lidar)});
+  if (!config.imu.device.empty()) {
+    imu_driver_ = std::make_unique<xsens::ImuDriver>(imu_driver_options(config.imu), samples);
+    imu_ = std::make_unique<serial::SerialSource>(serial_source_options(config.imu), *imu_driver_,
+                                                  taps.imu);
+    entries_.push_back({"imu", SourceRole::imu, *imu_, config.imu.device});
+  }
+  const bool has_imu = entries_.back().role == SourceRole::imu;
+  if (!has_imu && config.mount.orientation == config::MountOrientation::imu) {
+    throw config::ConfigError(
+        "mount.orientation is \"imu\" but no IMU is configured: expected imu.device (a serial "
+        "device, best one of /dev/serial/by-id), or a fixed mount (--set mount.orientation=fixed, "
+        "with mount.roll_deg, pitch_deg and yaw_deg)");
+  }
+}
+
+std::uint64_t LiveSources::kernel_drops() const noexcept {
+  return lidar_.counters().kernel_drops.value();
+}
+
+std::vector<std::string> LiveSources::warnings() const {
+  std::vector<std::string> lines;
+  for (const Entry& entry : entries_) {
+    if (entry.source.link() == live::LinkState::open || entry.source.last_error() == 0) continue;
+    lines.push_back(std::string(entry.name) + ": " + entry.device + ": " +
+                    std::strerror(entry.source.last_error()) + "; it is tried again");
+  }
+  add_lidar_warnings(lines);
+  return lines;
+}
+
+void LiveSources::add_lidar_warnings(std::vector<std::string>& lines) const {
+  const std::size_t wanted = udp_source_options(config_.lidar).socket.receive_buffer_bytes;
+  const std::size_t granted = lidar_.receive_buffer_bytes();
+  if (granted == 0 || granted >= wanted) return;
+  lines.push_back("lidar: the receive buffer is " + std::to_string(granted / 1024) +
+                  " KiB instead of " + std::to_string(wanted / 1024) +
+                  " KiB, packets are lost when the host is busy: allow more with `sysctl -w "
+                  "net.core.rmem_max=" +
+                  std::to_string(wanted) + "`");
+}
+
+}  // namespace convexcut::daemon

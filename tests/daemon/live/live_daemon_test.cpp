@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// convexcutd live: real UDP, a real terminal, real DDS between processes. Does not prove anything
+// about latency or jitter (tests/soak.sh and tests/latency.sh measure these), nor about a real
+// sensor's timing.
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+
+#include "tests/support/background_program.hpp"
+#include "tests/support/room.hpp"
+#include "tests/support/udp_sender.hpp"
+
+namespace convexcut::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+
+class LiveDaemon : public RoomTest {
+ protected:
+  // A DDS domain of this test's own.
+  static std::string domain() { return std::to_string(100 + ::getpid() % 99); }
+
+  void start_daemon(std::vector<std::string> settings) {
+    settings.insert(settings.begin(),
+                    {"dds.domain=" + domain(), "lidar.data_port=" + std::to_string(data_port_),
+                     "lidar.position_port=" + std::to_string(position_port_)});
+    std::vector<std::string> arguments;
+    for (const std::string& setting : settings) {
+      arguments.insert(arguments.end(), {"--set", setting});
+    }
+    daemon_ = std::make_unique<BackgroundProgram>("convexcutd", arguments);
+    ASSERT_TRUE(daemon_->wait_for("info start")) << daemon_->err();
+  }
+
+  [[nodiscard]] std::vector<std::string> replay_of_lidar() const {
+    return {"replay",
+            "--lidar",
+            lidar(),
+            "--port",
+            std::to_string(data_port_),
+            "--position-port",
+            std::to_string(position_port_),
+            "--json"};
+  }
+  [[nodiscard]] static std::vector<std::string> with(std::vector<std::string> arguments,
+                                                     const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+
+  // The number behind `key=` in the last line of the log that begins with `event`.
+  [[nodiscard]] static long logged(const std::string& log, const std::string& event,
+                                   const std::string& key) {
+    const std::size_t line = log.rfind(event + " ");
+    const std::size_t at = log.find(" " + key + "=", line == std::string::npos ? log.size() : line);
+    return at == std::string::npos ? -1 : std::stol(log.substr(at + key.size() + 2));
+  }
+  // The number of a key in one line of JSON.
+  [[nodiscard]] static long counted(const std::string& json, const std::string& key) {
+    const std::size_t at = json.find("\"" + key + "\":");
+    return at == std::string::npos ? -1 : std::stol(json.substr(at + key.size() + 3));
+  }
+  [[nodiscard]] static long resident_kib(pid_t pid) {
+    const std::string status = text("/proc/" + std::to_string(pid) + "/status");
+    return std::stol(status.substr(status.find("VmRSS:") + 6));
+  }
+
+  std::uint16_t data_port_ = free_udp_port();
+  std::uint16_t position_port_ = free_udp_port();
+  std::unique_ptr<BackgroundProgram> daemon_;
+};
+
+TEST_F(LiveDaemon, TakesALidarAndAnImuAndLosesNothing) {
+  make_room({"--seconds", "4"});
+  const std::string link = path("imu").string();
+  BackgroundProgram replay(
+      "convexcut", with(replay_of_lidar(), {"--imu", imu(), "--imu-link", link, "--wait", "20"}));
+  while (!std::filesystem::exists(link)) std::this_thread::sleep_for(milliseconds{10});
+  start_daemon({"imu.device=" + link});
+  std::this_thread::sleep_for(seconds{6});
+  const ProgramResult sent = replay.stop();
+  const ProgramResult run = daemon_->stop();
+
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(logged(run.err, "info end", "packets"), counted(sent.out, "data_packets")) << run.err;
+  EXPECT_EQ(logged(run.err, "info end", "lost_packets"), 0);
+  EXPECT_EQ(logged(run.err, "info end", "lost_imu_samples"), 0);
+  EXPECT_GT(logged(run.err, "info end", "imu_samples"), 300);
+  // Scans, and empty results before and after.
+  EXPECT_GT(logged(run.err, "info end", "scans"), logged(run.err, "info end", "empty") + 35);
+}
+
+TEST_F(LiveDaemon, WithoutASensorItRunsAndStopsCleanly) {
+  start_daemon({"mount.orientation=fixed"});
+  std::this_thread::sleep_for(seconds{2});
+  const ProgramResult run = daemon_->stop();
+  EXPECT_EQ(run.status, 0) << run.err;
+  const long results = logged(run.err, "info timing", "results");
+  const long run_ms = logged(run.err, "info timing", "run_ms");
+  EXPECT_NEAR(static_cast<double>(results), static_cast<double>(run_ms) / 100.0, 2.0);
+  EXPECT_EQ(logged(run.err, "info end", "empty"), results);
+}
+
+// Twenty times the packets that the sensor sends: what cannot be taken is counted, to the packet.
+TEST_F(LiveDaemon, EveryPacketOfAnOverloadIsDecodedOrCounted) {
+  make_room({"--seconds", "2", "--empty"});
+  start_daemon({"mount.orientation=fixed"});
+  BackgroundProgram replay("convexcut", with(replay_of_lidar(), {"--rate", "20", "--loop"}));
+  std::this_thread::sleep_for(seconds{10});
+  const ProgramResult sent = replay.stop();
+  std::this_thread::sleep_for(seconds{1});  // drops are counted a few times a second
+  const ProgramResult run = daemon_->stop();
+
+  EXPECT_EQ(run.status, 0) << run.err;
+  const long packets = counted(sent.out, "datagrams_sent");
+  EXPECT_GT(packets, 100'000);  // 36 000 a second, where the host keeps up with sending
+  const long decoded = logged(run.err, "info end", "packets");
+  const long kernel = logged(run.err, "info end", "kernel_drops");
+  const long ring = logged(run.err, "info end", "ring_overruns");
+  EXPECT_GT(decoded, 0);
+  EXPECT_EQ(decoded + kernel + ring, packets) << run.err;
+}
+
+// A subscriber that is stopped: neither the worker nor the memory notices.
+class StalledSubscriber : public LiveDaemon, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(StalledSubscriber, HoldsUpNobody) {
+  make_room({"--seconds", "12", "--empty"});
+  start_daemon({"mount.orientation=fixed", std::string("dds.reliability=") + GetParam()});
+  BackgroundProgram watch("convexcut", {"watch", "--domain", domain(), "--json"});
+  BackgroundProgram replay("convexcut", replay_of_lidar());
+  std::this_thread::sleep_for(seconds{3});
+  const long before = resident_kib(daemon_->pid());
+  watch.send(SIGSTOP);
+  std::this_thread::sleep_for(seconds{6});
+  const long after = resident_kib(daemon_->pid());
+  watch.send(SIGCONT);
+  std::this_thread::sleep_for(seconds{1});
+  const ProgramResult run = daemon_->stop();
+
+  EXPECT_EQ(run.status, 0) << run.err;
+  const long results = logged(run.err, "info timing", "results");
+  const long run_ms = logged(run.err, "info timing", "run_ms");
+  EXPECT_NEAR(static_cast<double>(results), static_cast<double>(run_ms) / 100.0, 3.0) << run.err;
+  EXPECT_EQ(logged(run.err, "info end", "lost_packets"), 0);
+  EXPECT_EQ(logged(run.err, "info end", "ring_overruns"), 0);
+  EXPECT_LT(after - before, 8 * 1024) << "KiB more while the subscriber was stopped";
+}
+
+INSTANTIATE_TEST_SUITE_P(Qos, StalledSubscriber, ::testing::Values("reliable", "best_effort"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_F(LiveDaemon, AnImuWithoutALidarRecordingIsWrongUsage) {
+  const ProgramResult run = run_program("convexcutd", {"--imu", "imu.pcap"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("--lidar"));
+}
+
+}  // namespace
+}  // namespace convexcut::test

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Live sources as a configuration asks for them. Does not prove that bytes arrive on real devices.
+#include "daemon/sources/live_sources.hpp"
+
+#include <functional>
+
+#include <gmock/gmock.h>
+
+#include "config/loader.hpp"
+#include "drivers/live/host_clock.hpp"
+#include "replay/emulator/pseudo_terminal.hpp"
+#include "tests/drivers/velodyne/collecting_sink.hpp"
+#include "tests/drivers/velodyne/packets.hpp"
+#include "tests/drivers/xsens/frames.hpp"
+#include "tests/drivers/xsens/recording_sink.hpp"
+#include "tests/support/in_child.hpp"
+#include "tests/support/udp_sender.hpp"
+
+namespace convexcut::daemon {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+struct Sinks {
+  velodyne::test::CollectingSink returns;
+  test::RecordingSink samples;
+};
+
+config::Config usual() {
+  config::Config config;
+  config.lidar.model = config::LidarModel::hdl32e;
+  config.lidar.data_port = test::free_udp_port();
+  config.lidar.position_port = test::free_udp_port();
+  config.mount.orientation = config::MountOrientation::fixed;
+  return config;
+}
+
+bool receive_until(const LiveSources& live, const std::function<bool()>& done) {
+  const auto give_up = live::Steady::now() + std::chrono::seconds{20};
+  while (!done()) {
+    if (live::Steady::now() > give_up) return false;
+    for (const LiveSources::Entry& entry : live.entries()) {
+      entry.source.receive(std::chrono::milliseconds{1});
+    }
+  }
+  return true;
+}
+
+TEST(LiveSources, FixedMountNeedsTheLidarOnly) {
+  Sinks sinks;
+  const config::Config config = usual();
+  const LiveSources live(config, sinks.returns, sinks.samples);
+  ASSERT_EQ(live.entries().size(), 1U);
+  EXPECT_EQ(live.entries()[0].name, "lidar");
+  EXPECT_EQ(live.entries()[0].role, SourceRole::lidar);
+  EXPECT_EQ(live.entries()[0].device, "UDP ports " + std::to_string(config.lidar.data_port) +
+                                          " and " + std::to_string(config.lidar.position_port));
+  EXPECT_EQ(live.imu(), nullptr);
+}
+
+TEST(LiveSources, OrientationWithoutAnImuIsAConfigurationError) {
+  Sinks sinks;
+  config::Config config = usual();
+  config.mount.orientation = config::MountOrientation::imu;
+  EXPECT_THROW(LiveSources(config, sinks.returns, sinks.samples), config::ConfigError);
+}
+
+TEST(LiveSources, RateThatNoLineHasIsAConfigurationError) {
+  Sinks sinks;
+  config::Config config = usual();
+  config.imu.device = "/dev/none";
+  config.imu.baud = 14400;
+  try {
+    const LiveSources live(config, sinks.returns, sinks.samples);
+    FAIL() << "no error";
+  } catch (const config::ConfigError& error) {
+    EXPECT_THAT(error.what(), StartsWith("imu.baud: expected 0 or one of 4800, "));
+    EXPECT_THAT(error.what(), HasSubstr("found 14400"));
+  }
+}
+
+TEST(LiveSources, BothSourcesReachTheirSinks) {
+  Sinks sinks;
+  replay::PseudoTerminal imu;
+  config::Config config = usual();
+  config.imu.device = imu.path();
+  LiveSources live(config, sinks.returns, sinks.samples);
+  ASSERT_TRUE(receive_until(live, [&] {
+    return live.lidar().link() == live::LinkState::open &&
+           live.imu()->link() == live::LinkState::open;
+  }));
+  test::UdpSender().send("127.0.0.1", config.lidar.data_port, velodyne::test::DataPacket().bytes());
+  const auto message = test::hex(xsens::test::kQuaternionMessage);
+  ASSERT_EQ(imu.send(message), message.size());
+  EXPECT_TRUE(receive_until(live, [&] {
+    return sinks.returns.batches.size() == 1 && sinks.samples.samples.size() == 1;
+  }));
+  EXPECT_EQ(live.lidar_driver().counters().data_packets.value(), 1U);
+  EXPECT_EQ(live.imu_driver()->counters().samples.value(), 1U);
+  EXPECT_THAT(live.warnings(), IsEmpty());
+}
+
+TEST(LiveSources, AbsentDeviceIsAWarningThatNamesIt) {
+  Sinks sinks;
+  config::Config config = usual();
+  config.imu.device = "/dev/serial/by-id/none";
+  LiveSources live(config, sinks.returns, sinks.samples);
+  EXPECT_THAT(live.warnings(), IsEmpty());  // nothing was tried yet
+  ASSERT_TRUE(receive_until(live, [&] { return live.lidar().link() == live::LinkState::open; }));
+  EXPECT_THAT(live.warnings(),
+              ElementsAre("imu: /dev/serial/by-id/none: No such file or directory; it is tried "
+                          "again"));
+}
+
+TEST(LiveSources, CutReceiveBufferIsAWarningThatSaysWhatToDo) {
+  test::without_privileges([] {
+    Sinks sinks;
+    config::Config config = usual();
+    config.lidar.receive_buffer_kib = 1'048'576;
+    LiveSources live(config, sinks.returns, sinks.samples);
+    ASSERT_TRUE(receive_until(live, [&] { return live.lidar().link() == live::LinkState::open; }));
+    ASSERT_LT(live.lidar().receive_buffer_bytes(), std::size_t{1'048'576} * 1024);
+    EXPECT_THAT(live.warnings(), ElementsAre(HasSubstr("net.core.rmem_max=1073741824")));
+  });
+}
+
+}  // namespace
+}  // namespace convexcut::daemon
