@@ -265,6 +265,18 @@ TEST_F(Replay, RawStreamIsPacedByTheDevicesTime) {
   EXPECT_EQ(imu_counters().data_messages.value(), figure("imu_sent"));
 }
 
+TEST_F(Replay, ImuAnswersAHostThatConfiguresIt) {
+  config_.imu.configure = true;
+  config_.imu.set_baud = 921600;
+  play({});
+  const xsens::MtConfiguration& device = *live_->imu()->configuration();
+  EXPECT_EQ(device.counters().completed.value(), 1U);
+  EXPECT_EQ(device.outcome(), xsens::MtOutcome::as_wanted);
+  EXPECT_EQ(device.baud(), 921600U);
+  EXPECT_GT(figure("imu_sent"), 50U);
+  EXPECT_EQ(imu_counters().data_messages.value(), figure("imu_sent"));
+}
+
 TEST_F(Replay, SigtermEndsItWithItsSummary) {
   ProgramLimits limits;
   limits.terminate_at = "/dev/pts/";
