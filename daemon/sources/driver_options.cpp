@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "config/conflicts.hpp"
 #include "config/loader.hpp"
 #include "config/text_rules.hpp"
 
@@ -94,7 +95,16 @@ serial::SerialSourceOptions serial_source_options(const config::Imu& imu) {
   serial::SerialSourceOptions options;
   options.device = imu.device;
   options.baud = imu.baud;
+  if (imu.configure) {
+    options.configuration = {.baud = imu.baud,
+                             .set_baud = imu.set_baud,
+                             .scan_baud = imu.scan_baud,
+                             .rate_hz = static_cast<std::uint16_t>(imu.rate_hz)};
+  }
   return options;
 }
+
+// The configuration's check of the line is made for these messages.
+static_assert(config::kConfiguredMessageBytes == xsens::mt_message_size());
 
 }  // namespace convexcut::daemon

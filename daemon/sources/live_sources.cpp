@@ -5,6 +5,7 @@
 
 #include "config/loader.hpp"
 #include "daemon/sources/driver_options.hpp"
+#include "drivers/xsens/error_code.hpp"
 
 namespace convexcut::daemon {
 namespace {
@@ -51,6 +52,7 @@ std::vector<std::string> LiveSources::warnings() const {
                     std::strerror(entry.source.last_error()) + "; it is tried again");
   }
   add_lidar_warnings(lines);
+  add_imu_warnings(lines);
   return lines;
 }
 
@@ -63,6 +65,29 @@ void LiveSources::add_lidar_warnings(std::vector<std::string>& lines) const {
                   " KiB, packets are lost when the host is busy: allow more with `sysctl -w "
                   "net.core.rmem_max=" +
                   std::to_string(wanted) + "`");
+}
+
+void LiveSources::add_imu_warnings(std::vector<std::string>& lines) const {
+  if (!imu_ || imu_->configuration() == nullptr) return;
+  const xsens::MtConfiguration& device = *imu_->configuration();
+  const std::string start = "imu: " + config_.imu.device + ": ";
+  if (device.state() == xsens::MtState::no_answer) {
+    lines.push_back(start + "does not answer at " + std::to_string(device.baud()) +
+                    " bit/s; it is tried again (imu.baud is the rate of its line, imu.scan_baud "
+                    "looks for it)");
+  }
+  if (device.outcome() == xsens::MtOutcome::refused) {
+    lines.push_back(start + "refuses to send what is wanted: " +
+                    std::string(xsens::describe_error(device.last_error())) +
+                    "; it sends what it was set to before");
+  } else if (device.outcome() == xsens::MtOutcome::differs) {
+    lines.push_back(start + "sends other data or rates than it was told (imu.rate_hz)");
+  }
+  if (device.state() == xsens::MtState::measuring && config_.imu.baud != 0 &&
+      config_.imu.set_baud != 0 && device.baud() != config_.imu.set_baud) {
+    lines.push_back(start + "stays at " + std::to_string(device.baud()) + " bit/s instead of " +
+                    std::to_string(config_.imu.set_baud) + ", and sends fewer samples");
+  }
 }
 
 }  // namespace convexcut::daemon

@@ -62,11 +62,13 @@ class LiveSources {
   [[nodiscard]] std::uint64_t kernel_drops() const noexcept;
 
   // What is amiss now, one line each with what to do about it: a link that cannot be opened, a
-  // receive buffer that the kernel cut. Any thread; allocates.
+  // receive buffer that the kernel cut, an IMU that does not answer or refuses what it is told. Any
+  // thread; allocates.
   [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
   void add_lidar_warnings(std::vector<std::string>& lines) const;
+  void add_imu_warnings(std::vector<std::string>& lines) const;
 
   config::Config config_;
   velodyne::LidarDriver lidar_driver_;

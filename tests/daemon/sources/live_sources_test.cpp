@@ -9,7 +9,7 @@
 
 #include "config/loader.hpp"
 #include "drivers/live/host_clock.hpp"
-#include "replay/emulator/pseudo_terminal.hpp"
+#include "replay/emulator/emulated_imu.hpp"
 #include "tests/drivers/velodyne/collecting_sink.hpp"
 #include "tests/drivers/velodyne/packets.hpp"
 #include "tests/drivers/xsens/frames.hpp"
@@ -114,6 +114,39 @@ TEST(LiveSources, AbsentDeviceIsAWarningThatNamesIt) {
   EXPECT_THAT(live.warnings(),
               ElementsAre("imu: /dev/serial/by-id/none: No such file or directory; it is tried "
                           "again"));
+}
+
+TEST(LiveSources, ImuThatRefusesIsWarnedOf) {
+  Sinks sinks;
+  replay::EmulatedImu imu({}, {.refuse_with = 33});
+  config::Config config = usual();
+  config.imu.device = imu.terminal().path();
+  config.imu.configure = true;
+  LiveSources live(config, sinks.returns, sinks.samples);
+  const auto message = test::hex(xsens::test::kQuaternionMessage);
+  ASSERT_TRUE(receive_until(live, [&] {
+    imu.answer();
+    imu.measure(message);
+    return live.imu()->configuration()->state() == xsens::MtState::measuring;
+  }));
+  EXPECT_THAT(live.warnings(),
+              ElementsAre("imu: " + config.imu.device +
+                          ": refuses to send what is wanted: invalid parameter; it sends what it "
+                          "was set to before"));
+}
+
+TEST(LiveSources, ImuThatDoesNotAnswerIsWarnedOf) {
+  Sinks sinks;
+  replay::EmulatedImu imu({}, {.deaf_to = 1'000'000});
+  config::Config config = usual();
+  config.imu.device = imu.terminal().path();
+  config.imu.configure = true;
+  LiveSources live(config, sinks.returns, sinks.samples);
+  ASSERT_TRUE(receive_until(live, [&] {
+    imu.answer();
+    return live.imu()->configuration()->state() == xsens::MtState::no_answer;
+  }));
+  EXPECT_THAT(live.warnings(), ElementsAre(HasSubstr("does not answer at ")));
 }
 
 TEST(LiveSources, CutReceiveBufferIsAWarningThatSaysWhatToDo) {
