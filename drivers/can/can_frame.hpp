@@ -17,6 +17,13 @@ inline constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
 inline constexpr std::size_t kMaxClassicLength = 8;
 inline constexpr std::size_t kMaxFdLength = 64;
 
+// An arbitration identifier: 11 bits, or 29 when extended. The two kinds share no messages.
+struct CanId {
+  std::uint32_t id = 0;
+  bool extended = false;
+  friend constexpr bool operator==(const CanId&, const CanId&) = default;
+};
+
 struct CanFrame {
   HostTime stamp{};         // when the host had received the frame
   std::uint32_t id = 0;     // 11 or 29 bits; the error class bits of an error frame
