@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/live/ancillary.hpp"
 
-#include <chrono>
 #include <cstring>
+
+#include "drivers/live/host_clock.hpp"
 
 namespace convexcut::live {
 namespace {
-
-[[nodiscard]] HostTime to_host_time(const timespec& time) noexcept {
-  return HostTime{std::chrono::seconds{time.tv_sec} + Duration{time.tv_nsec}};
-}
 
 // CMSG_NXTHDR takes a pointer to what it only reads.
 [[nodiscard]] msghdr* as_cmsg_argument(const msghdr& message) noexcept {
@@ -35,13 +32,6 @@ Ancillary parse_ancillary(const msghdr& message) noexcept {
     }
   }
   return found;
-}
-
-HostTime host_now() noexcept {
-  timespec now{};
-  // Cannot fail: the clock exists and the pointer is good.
-  static_cast<void>(clock_gettime(CLOCK_REALTIME, &now));
-  return to_host_time(now);
 }
 
 bool request_ancillary(int socket) noexcept {

@@ -26,9 +26,6 @@ inline constexpr std::size_t kAncillarySize =
 // Of a message that recvmsg() or recvmmsg() has filled. RT.
 [[nodiscard]] Ancillary parse_ancillary(const msghdr& message) noexcept;
 
-// The clock of the kernel's stamps, CLOCK_REALTIME, now. RT.
-[[nodiscard]] HostTime host_now() noexcept;
-
 // Asks the kernel for both; false with errno set when it refuses.
 [[nodiscard]] bool request_ancillary(int socket) noexcept;
 
