@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <utility>
 
 #include <poll.h>
 
@@ -15,15 +16,10 @@
 namespace convexcut::socketcan {
 namespace {
 
-[[nodiscard]] timespec to_timespec(Duration duration) noexcept {
-  const auto whole = std::chrono::floor<std::chrono::seconds>(duration);
-  return {.tv_sec = whole.count(), .tv_nsec = (duration - whole).count()};
-}
-
 // Waits until `descriptor` is readable or has failed; without one (-1) until the time is over.
 [[nodiscard]] bool wait_readable(int descriptor, Duration wait) noexcept {
   pollfd entry{.fd = descriptor, .events = POLLIN, .revents = 0};
-  const timespec limit = to_timespec(std::max(wait, Duration::zero()));
+  const timespec limit = live::to_timespec(std::max(wait, Duration::zero()));
   return ppoll(&entry, 1, &limit, nullptr) > 0;
 }
 
@@ -64,31 +60,26 @@ void SocketCanSource::receive(Duration wait) noexcept {
 
 Duration SocketCanSource::time_to_flush() const noexcept {
   if (!unflushed_) return Duration::max();
-  return options_.idle - (std::chrono::steady_clock::now() - last_frame_);
+  return options_.idle - (live::Steady::now() - last_frame_);
 }
 
 void SocketCanSource::wait_to_open(Duration wait) noexcept {
-  const auto now = std::chrono::steady_clock::now();
-  if (next_open_ && now < *next_open_) {
-    const Duration left = *next_open_ - now;
-    static_cast<void>(wait_readable(-1, std::min(wait, left)));
-    if (wait < left) return;
+  if (const Duration pause = opening_.left(live::Steady::now(), wait); pause > Duration::zero()) {
+    static_cast<void>(wait_readable(-1, pause));
   }
-  open();
+  if (opening_.take(live::Steady::now())) open();
 }
 
 void SocketCanSource::open() noexcept {
-  next_open_ = std::chrono::steady_clock::now() + kReopenEvery;
   counters_.open_attempts.add();
   OpenedSocket opened = open_can_socket(options_.interface, filters_);
-  last_error_.store(opened.error, std::memory_order_relaxed);  // pairs with last_error()
-  if (!opened.socket) return;
+  if (!opened.socket) return status_.set(live::LinkState::closed, opened.error);
   counters_.opened.add();
   socket_ = std::move(opened.socket);
-  dropped_in_total_ = 0;
+  drops_ = {};
   // What the controller was in before is not known any more.
   controller_.store(can::ControllerState::active, std::memory_order_relaxed);
-  link_.store(live::LinkState::open, std::memory_order_relaxed);  // pairs with link()
+  status_.set_open();
 }
 
 void SocketCanSource::close(int error) noexcept {
@@ -98,8 +89,7 @@ void SocketCanSource::close(int error) noexcept {
   flush();
   socket_.reset();
   counters_.closed.add();
-  last_error_.store(error, std::memory_order_relaxed);              // pairs with last_error()
-  link_.store(live::LinkState::closed, std::memory_order_relaxed);  // pairs with link()
+  status_.set(live::LinkState::closed, error);
 }
 
 void SocketCanSource::read_batch() noexcept {
@@ -114,13 +104,13 @@ int SocketCanSource::take_batch() noexcept {
   }
   const int count = recvmmsg(socket_.get(), batch_.messages.data(), kBatch, MSG_DONTWAIT, nullptr);
   for (int i = 0; i < count; ++i) take(batch_.messages[static_cast<std::size_t>(i)]);
-  if (count > 0) last_frame_ = std::chrono::steady_clock::now();
+  if (count > 0) last_frame_ = live::Steady::now();
   return count;
 }
 
 void SocketCanSource::take(mmsghdr& message) noexcept {
   const live::Ancillary ancillary = live::parse_ancillary(message.msg_hdr);
-  if (ancillary.dropped) count_drops(*ancillary.dropped);
+  if (ancillary.dropped) counters_.dropped.add(drops_.advance(*ancillary.dropped));
   const bool whole = (message.msg_hdr.msg_flags & MSG_TRUNC) == 0 &&
                      (message.msg_len == CAN_MTU || message.msg_len == CANFD_MTU);
   if (!whole) return counters_.malformed.add();
@@ -142,11 +132,6 @@ void SocketCanSource::take(mmsghdr& message) noexcept {
   receiver_.on_frame(frame);
 }
 
-void SocketCanSource::count_drops(std::uint32_t dropped_in_total) noexcept {
-  counters_.dropped.add(dropped_in_total - dropped_in_total_);  // the difference survives wrapping
-  dropped_in_total_ = dropped_in_total;
-}
-
 void SocketCanSource::follow_controller(const can::CanFrame& frame) noexcept {
   if (frame.error) counters_.error_frames.add();
   const can::ControllerReport report = can::next_state(controller(), frame);
@@ -156,8 +141,12 @@ void SocketCanSource::follow_controller(const can::CanFrame& frame) noexcept {
   if (report.state == can::ControllerState::passive) counters_.error_passive.add();
   const bool off = report.state == can::ControllerState::bus_off;
   if (off) counters_.bus_off.add();
-  controller_.store(report.state, std::memory_order_relaxed);  // pairs with controller()
-  link_.store(off ? live::LinkState::error : live::LinkState::open, std::memory_order_relaxed);
+  controller_.store(report.state, std::memory_order_relaxed);
+  if (off) {
+    status_.set(live::LinkState::error, 0);
+  } else {
+    status_.set_open();
+  }
 }
 
 void SocketCanSource::flush() noexcept {

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +21,13 @@
 #include "drivers/can/frame_receiver.hpp"
 #include "drivers/can/socketcan_layout.hpp"
 #include "drivers/live/ancillary.hpp"
+#include "drivers/live/drop_count.hpp"
 #include "drivers/live/file_descriptor.hpp"
+#include "drivers/live/host_clock.hpp"
+#include "drivers/live/link_status.hpp"
 #include "drivers/live/live_source.hpp"
 #include "drivers/live/raw_tap.hpp"
+#include "drivers/live/retry_pause.hpp"
 
 namespace convexcut::socketcan {
 
@@ -55,7 +58,6 @@ struct SocketCanCounters {
 // Frames are stamped by the kernel (CLOCK_REALTIME, software).
 class SocketCanSource final : public live::LiveSource {
  public:
-  static constexpr Duration kReopenEvery = std::chrono::milliseconds{250};
   static constexpr std::size_t kBatch = 32;  // frames of one system call
 
   // `receiver` and `tap` outlive the source. The tap hears the frames that pass the filters.
@@ -64,14 +66,10 @@ class SocketCanSource final : public live::LiveSource {
 
   void receive(Duration wait) noexcept override;
 
-  [[nodiscard]] live::LinkState link() const noexcept override {
-    return link_.load(std::memory_order_relaxed);  // pairs with set_link()
-  }
-  [[nodiscard]] int last_error() const noexcept override {
-    return last_error_.load(std::memory_order_relaxed);  // pairs with open() and close()
-  }
+  [[nodiscard]] live::LinkState link() const noexcept override { return status_.state(); }
+  [[nodiscard]] int last_error() const noexcept override { return status_.last_error(); }
   [[nodiscard]] can::ControllerState controller() const noexcept {
-    return controller_.load(std::memory_order_relaxed);  // pairs with follow_controller()
+    return controller_.load(std::memory_order_relaxed);  // pairs with the stores
   }
   [[nodiscard]] const SocketCanCounters& counters() const noexcept { return counters_; }
 
@@ -91,7 +89,6 @@ class SocketCanSource final : public live::LiveSource {
   void read_batch() noexcept;
   [[nodiscard]] int take_batch() noexcept;
   void take(mmsghdr& message) noexcept;
-  void count_drops(std::uint32_t dropped_in_total) noexcept;
   void follow_controller(const can::CanFrame& frame) noexcept;
   // Until the receiver is to be flushed; not soon when there is nothing to flush.
   [[nodiscard]] Duration time_to_flush() const noexcept;
@@ -103,15 +100,14 @@ class SocketCanSource final : public live::LiveSource {
   live::RawTap* tap_;
   SocketCanCounters counters_;
   live::FileDescriptor socket_;
-  std::optional<std::chrono::steady_clock::time_point> next_open_;
+  live::RetryPause opening_;
+  live::LinkStatus status_;
   Batch batch_{};
-  std::uint32_t dropped_in_total_ = 0;  // by this socket
-  bool unflushed_ = false;              // frames came since the last flush
-  std::chrono::steady_clock::time_point last_frame_;
-
-  // Lone values that order nothing: relaxed everywhere, written on the receive thread only.
-  std::atomic<live::LinkState> link_{live::LinkState::closed};
-  std::atomic<int> last_error_{0};
+  live::DropCount drops_;   // of this socket
+  bool unflushed_ = false;  // frames came since the last flush
+  live::Steady::time_point last_frame_;
+  // Relaxed: a value on its own that orders nothing; written by follow_controller() and open(), on
+  // the receive thread, read by controller().
   std::atomic<can::ControllerState> controller_{can::ControllerState::active};
 };
 
