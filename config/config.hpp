@@ -17,6 +17,10 @@ enum class LidarModel : std::uint8_t { automatic, hdl32e, vlp16, puck_hires, vlp
 enum class CutMode : std::uint8_t { revolution, clock };
 enum class DualReturn : std::uint8_t { farthest, last, strongest, both };
 enum class MountOrientation : std::uint8_t { imu, fixed };
+enum class EncoderUse : std::uint8_t { off, yaw, orientation };
+enum class EncoderAxis : std::uint8_t { rotation, tilt };
+enum class EncoderPreset : std::uint8_t { none, cia402_position, cia402_position_sdo };
+enum class ByteOrder : std::uint8_t { intel, motorola };
 enum class Method : std::uint8_t { paper };
 enum class LogLevel : std::uint8_t { error, warning, info, debug };
 enum class Realtime : std::uint8_t { automatic, on, off };
@@ -72,6 +76,22 @@ struct Can {
   bool extended_ids = false;
 };
 
+// The encoder of a stage that turns the lidar, on the same bus as the IMU.
+struct Encoder {
+  EncoderUse use = EncoderUse::off;
+  EncoderAxis axis = EncoderAxis::rotation;
+  EncoderPreset preset = EncoderPreset::none;
+  std::uint32_t id = 0x181;
+  bool extended_id = false;
+  ByteOrder byte_order = ByteOrder::intel;
+  std::uint32_t start_bit = 0;
+  std::uint32_t length_bits = 32;
+  bool is_signed = true;
+  double scale_deg = 0.001;  // of a count
+  Degrees offset{0.0};
+  std::int64_t timeout_ms = 100;
+};
+
 struct ConvexCut {
   Method method = Method::paper;
   std::uint32_t planes = 360;
@@ -117,6 +137,7 @@ struct Config {
   Mount mount;
   Imu imu;
   Can can;
+  Encoder encoder;
   ConvexCut convex_cut;
   Worker worker;
   RealtimeSettings realtime;

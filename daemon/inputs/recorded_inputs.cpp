@@ -17,7 +17,7 @@ RecordedInputs::RecordedInputs(const RecordingPaths& paths, const config::Config
       rings_(rings),
       stop_(stop),
       clock_(rate, stop),
-      recordings_(paths, config, rings.returns, rings.samples) {}
+      recordings_(paths, config, rings.returns, rings.samples, rings.angles) {}
 
 std::vector<InputThread> RecordedInputs::start() {
   clock_.start(recordings_.first_stamp());

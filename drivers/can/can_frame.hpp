@@ -39,6 +39,11 @@ struct CanFrame {
   }
 };
 
+// Whether a device that sends with this identifier sent the frame.
+[[nodiscard]] constexpr bool has_id(const CanFrame& frame, const CanId& id) noexcept {
+  return !frame.error && frame.id == id.id && frame.extended == id.extended;
+}
+
 // Whether a frame can have so many bytes of data. CAN FD has no lengths between those of its DLC.
 [[nodiscard]] constexpr bool is_valid_length(std::size_t length, bool fd) noexcept {
   if (length <= kMaxClassicLength) return true;
