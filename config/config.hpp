@@ -65,6 +65,7 @@ struct Imu {
 };
 
 struct Can {
+  std::string interface;  // network interface of the live bus; empty: none
   std::uint32_t bitrate = 250000;
   std::uint32_t sample_time_id = 0x005;
   std::uint32_t group_counter_id = 0x006;

@@ -31,7 +31,7 @@ constexpr std::array kSections{
     Section{"lidar", "The lidar: which model, what of it is used, and where scans are cut."},
     Section{"mount", "How the lidar is mounted, where no IMU tells."},
     Section{"imu", "The serial IMU and how it sits on the lidar."},
-    Section{"can", "The IMU on a CAN bus: identifiers of its messages."},
+    Section{"can", "The CAN bus, and the identifiers of the messages of the IMU on it."},
     Section{"encoder", "The angle of a stage that turns the lidar, on the same bus."},
     Section{"convex_cut", "The extraction of structure."},
     Section{"worker", "The grid on which results are made and published."},
@@ -120,6 +120,9 @@ constexpr std::array kKeys{
         "imu.scan_baud", Boolean{}, "",
         "Whether an IMU to be configured that does not answer is tried at other rates."),
 
+    bind_key<&Config::can, &Can::interface>(
+        "can.interface", kInterface, "",
+        "The network interface of the live bus, like can0; empty: none."),
     bind_key<&Config::can, &Can::bitrate>("can.bitrate", Integer{5'000, 1'000'000}, "bit/s",
                                           "Rate of the bus, which gives the time a frame takes."),
     bind_key<&Config::can, &Can::sample_time_id>("can.sample_time_id", kCanId, "",

@@ -134,4 +134,11 @@ can::BusOptions bus_options(const config::Config& config) {
   return options;
 }
 
+socketcan::SocketCanOptions socketcan_options(const config::Config& config) {
+  const can::BusOptions devices = bus_options(config);
+  return {.interface = config.can.interface,
+          .ids = can::received_ids(devices),
+          .idle = devices.imu.group_timeout};
+}
+
 }  // namespace convexcut::daemon

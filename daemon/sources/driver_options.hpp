@@ -6,6 +6,7 @@
 #include "config/config.hpp"
 #include "drivers/can/bus_devices.hpp"
 #include "drivers/serial/serial_source.hpp"
+#include "drivers/socketcan/socketcan_source.hpp"
 #include "drivers/udp/udp_source.hpp"
 #include "drivers/velodyne/lidar_driver.hpp"
 #include "drivers/xsens/imu_driver.hpp"
@@ -19,6 +20,7 @@ namespace convexcut::daemon {
 [[nodiscard]] can::BusOptions bus_options(const config::Config& config);
 
 [[nodiscard]] udp::UdpSourceOptions udp_source_options(const config::Lidar& lidar);
+[[nodiscard]] socketcan::SocketCanOptions socketcan_options(const config::Config& config);
 // Throws config::ConfigError for a rate that serial lines do not have.
 [[nodiscard]] serial::SerialSourceOptions serial_source_options(const config::Imu& imu);
 

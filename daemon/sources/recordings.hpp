@@ -15,6 +15,7 @@
 #include "core/return_batch.hpp"
 #include "core/sink.hpp"
 #include "daemon/sources/driver_options.hpp"
+#include "daemon/sources/null_sink.hpp"
 #include "drivers/recording/can_recording.hpp"
 #include "drivers/recording/imu_recording.hpp"
 #include "drivers/recording/lidar_recording.hpp"
@@ -32,17 +33,6 @@ struct RecordingPaths {
 // What to say of a recording that was read without finding any: one line.
 [[nodiscard]] std::string no_lidar_packets(const std::filesystem::path& file,
                                            const recording::LidarRecording& recording);
-
-// Takes and forgets: what a second IMU's samples go to.
-template <class Sample>
-class NullSink final : public Sink<Sample> {
- public:
-  [[nodiscard]] Sample* claim() noexcept override { return &sample_; }
-  void commit() noexcept override {}
-
- private:
-  Sample sample_;
-};
 
 class Recordings {
  public:
