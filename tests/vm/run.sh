@@ -28,7 +28,27 @@ folder=$(mktemp -d build/vm/run.XXXXXX)
 trap 'rm -rf "$folder"' EXIT
 cp -r tests/vm/checks "$folder/checks"
 mv "$folder/checks/run.sh" "$folder/run.sh"
-cp build/release/tests/drivers_socketcan_test "$folder/"
+mkdir "$folder/bin"
+cp build/release/bin/convexcut{,d} build/release/tests/drivers_socketcan_test "$folder/bin/"
+
+# What the guest plays, and what it has to make of it.
+build/release/bin/convexcut-demo-room --out "$folder/room" --seconds 6 >/dev/null
+build/release/bin/convexcut process --lidar "$folder/room/lidar.pcap" --can "$folder/room/can.log" \
+  --out "$folder/scans" >/dev/null
+(cd "$folder/scans" && sha256sum -- * | sort -k 2) >"$folder/room/scans.sha256"
+rm -r "$folder/scans"
+python3 - "$folder/room/lidar.pcap" "$folder/room/thin.pcap" <<'P'
+import struct, sys
+capture = open(sys.argv[1], "rb").read()
+at, number = 24, 0
+with open(sys.argv[2], "wb") as thin:  # every eighth record
+    thin.write(capture[:at])
+    while at < len(capture):
+        end = at + 16 + struct.unpack_from("<I", capture, at + 8)[0]
+        if number % 8 == 0:
+            thin.write(capture[at:end])
+        at, number = end, number + 1
+P
 
 started=$SECONDS
 tests/vm/run-guest.sh "$folder" && status=0 || status=$?

@@ -29,8 +29,7 @@ within() {
 # gtest PROGRAM [arguments]: each of its tests is a check; a skipped one has failed: here is what it asks for.
 gtest() {
   local program=$1 log=out/$1.log name
-  shift
-  "./$program" "$@" >"$log" 2>&1
+  "$@" >"$log" 2>&1
   local status=$? count=0
   while read -r name; do
     count=$((count + 1))
@@ -38,4 +37,30 @@ gtest() {
   done < <(sed -n 's/^\[ RUN      \] //p' "$log")
   check "$program ran its tests and ended well" [ $status = 0 -a $count -gt 0 ]
   [ $status = 0 ] || grep -vE '^\[ (RUN|      OK) ' "$log" | tail -n 60 | sed 's/^/        /'
+}
+
+# The daemon and who watches it. said TEXT: in the daemon's log since it was last marked.
+start_daemon() {
+  convexcutd "$@" 2>>out/daemon.log &
+  daemon=$!
+}
+mark() { marked=$(wc -l <out/daemon.log); }
+said() { tail -n +$((marked + 1)) out/daemon.log | grep -q -- "$1" || { tail -n 20 out/daemon.log; return 1; }; }
+# Not within a check, which cannot wait for it.
+stop_daemon() {
+  kill -TERM $daemon
+  wait $daemon
+  stopped=$?
+}
+start_watch() {
+  convexcut watch --json >out/watch.log 2>&1 &
+  watch=$!
+}
+watched() { wc -l <out/watch.log; }
+# of LINE KEY: a number of one second of `convexcut watch`.
+of() { sed -n "$1s/.*\"$2\":\([0-9.]*\).*/\1/p" out/watch.log; }
+# is KEY OPERATOR NUMBER: in the last second.
+is() {
+  awk -v found="$(of '$' "$1")" -v limit="$3" "BEGIN { exit !(found != \"\" && found + 0 $2 limit + 0) }" ||
+    { tail -n 3 out/watch.log; return 1; }
 }
