@@ -17,6 +17,10 @@ enum class LidarModel : std::uint8_t { automatic, hdl32e, vlp16, puck_hires, vlp
 enum class CutMode : std::uint8_t { revolution, clock };
 enum class DualReturn : std::uint8_t { farthest, last, strongest, both };
 enum class MountOrientation : std::uint8_t { imu, fixed };
+enum class EncoderUse : std::uint8_t { off, yaw, orientation };
+enum class EncoderAxis : std::uint8_t { rotation, tilt };
+enum class EncoderPreset : std::uint8_t { none, cia402_position, cia402_position_sdo };
+enum class ByteOrder : std::uint8_t { intel, motorola };
 enum class Method : std::uint8_t { paper };
 enum class SimdPath : std::uint8_t { automatic, avx512, avx2, sse4, neon, baseline };
 enum class LogLevel : std::uint8_t { error, warning, info, debug };
@@ -62,6 +66,7 @@ struct Imu {
 };
 
 struct Can {
+  std::string interface;  // network interface of the live bus; empty: none
   std::uint32_t bitrate = 250000;
   std::uint32_t sample_time_id = 0x005;
   std::uint32_t group_counter_id = 0x006;
@@ -71,6 +76,22 @@ struct Can {
   std::uint32_t rate_of_turn_id = 0x032;
   std::uint32_t acceleration_id = 0x034;
   bool extended_ids = false;
+};
+
+// The encoder of a stage that turns the lidar, on the same bus as the IMU.
+struct Encoder {
+  EncoderUse use = EncoderUse::off;
+  EncoderAxis axis = EncoderAxis::rotation;
+  EncoderPreset preset = EncoderPreset::none;
+  std::uint32_t id = 0x181;
+  bool extended_id = false;
+  ByteOrder byte_order = ByteOrder::intel;
+  std::uint32_t start_bit = 0;
+  std::uint32_t length_bits = 32;
+  bool is_signed = true;
+  double scale_deg = 0.001;  // of a count
+  Degrees offset{0.0};
+  std::int64_t timeout_ms = 100;
 };
 
 struct ConvexCut {
@@ -120,6 +141,7 @@ struct Config {
   Mount mount;
   Imu imu;
   Can can;
+  Encoder encoder;
   ConvexCut convex_cut;
   Worker worker;
   RealtimeSettings realtime;
