@@ -25,6 +25,7 @@ namespace convexcut::capture {
 namespace {
 
 constexpr int kSnapshotLength = 262'144;  // libpcap's largest for these links
+constexpr std::size_t kWriteSize = 65'536;
 constexpr std::uint64_t kFileHeader = 24;
 constexpr std::uint64_t kRecordHeader = 16;
 constexpr std::size_t kDatagramHeaders =
@@ -103,6 +104,7 @@ CaptureWriter::CaptureWriter(std::filesystem::path file, LinkKind link, Appears 
   if (stream == nullptr) {
     throw CaptureError(part_.string() + ": cannot create: " + std::strerror(errno));
   }
+  static_cast<void>(std::setvbuf(stream, nullptr, _IOFBF, kWriteSize));
   dumper_.reset(::pcap_dump_fopen(handle_.get(), stream));
   if (dumper_ == nullptr) {
     static_cast<void>(std::fclose(stream));
