@@ -54,15 +54,6 @@ class Conflicts {
                              shown(key), ", found ", shown(other)));
   }
 
-  // The file being written is never deleted: the limit holds only when there are others.
-  void require_room_for_two_files() {
-    const std::int64_t largest = config_.record.max_file_mb;
-    if (largest > 0 && 2 * largest <= config_.record.keep_mb) return;
-    add({"record.keep_mb", "record.max_file_mb"},
-        concat("expected record.max_file_mb above 0 and at most half of record.keep_mb, found ",
-               shown("record.max_file_mb"), " and ", shown("record.keep_mb")));
-  }
-
   [[nodiscard]] std::vector<Conflict> take() { return std::move(found_); }
 
  private:
@@ -181,7 +172,6 @@ std::vector<Conflict> find_conflicts(const Config& config) {
   conflicts.require_different(std::array<std::string_view, 2>{"dds.level_frame", "dds.imu_frame"});
   check_imu_configuration(config.imu, conflicts);
   if (config.encoder.use != EncoderUse::off) check_encoder(config, kCanIds, conflicts);
-  if (config.record.keep_mb > 0) conflicts.require_room_for_two_files();
   const auto collision =
       port_collision(config.dds.domain, config.lidar.data_port, config.lidar.position_port);
   if (collision) {

@@ -256,7 +256,8 @@ constexpr std::array kKeys{
         "A file that covers this time is ended and the next begun; 0: any time."),
     bind_key<&Config::record, &Record::keep_mb>(
         "record.keep_mb", Integer{0, 1'000'000'000}, "MB",
-        "The oldest files are deleted when all are larger than this; 0: none is."),
+        "The oldest files are deleted beyond this, and none gets larger than a quarter of it; 0: "
+        "none is."),
 
     bind_key<&Config::metrics, &Metrics::address>(
         "metrics.address", kListenAddress, "",

@@ -80,6 +80,11 @@ std::map<unsigned, Segment> segments_in(const std::filesystem::path& directory) 
 }  // namespace
 
 RecordingFiles::RecordingFiles(RecordingOptions options) : options_(std::move(options)) {
+  if (options_.keep_bytes > 0) {
+    const std::uint64_t largest = std::max<std::uint64_t>(options_.keep_bytes / 4, 1);
+    options_.max_file_bytes =
+        options_.max_file_bytes == 0 ? largest : std::min(options_.max_file_bytes, largest);
+  }
   std::error_code error;
   std::filesystem::create_directories(options_.directory, error);
   if (error) {

@@ -24,7 +24,8 @@ struct RecordingOptions {
   std::filesystem::path directory;
   std::uint64_t max_file_bytes = 0;  // 0: no limit
   Duration max_file_time{0};         // 0: no limit
-  // Of all segments in the directory together: the oldest are deleted. 0: none is.
+  // Of all segments in the directory together: the oldest are deleted, but not the one that is
+  // being written, of which no file gets larger than a quarter of this. 0: none is.
   std::uint64_t keep_bytes = 0;
   // With less room than this left on the disk, recording stops: the machine needs some.
   std::uint64_t least_free_bytes = 64U << 20U;

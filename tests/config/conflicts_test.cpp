@@ -49,16 +49,6 @@ TEST(Conflicts, LatencyIsBelowThePeriod) {
   EXPECT_THAT(errors_of("[worker]\nlatency_ms = 99\n"), IsEmpty());
 }
 
-TEST(Conflicts, ALimitOnAllRecordingsLeavesRoomForTwoFiles) {
-  EXPECT_THAT(errors_of("[record]\nkeep_mb = 2047\n"),
-              ElementsAre("robot.toml:2: record.keep_mb: expected record.max_file_mb above 0 and "
-                          "at most half of record.keep_mb, found 1024 and 2047"));
-  EXPECT_THAT(errors_of("[record]\nkeep_mb = 10000\nmax_file_mb = 0\n"),
-              ElementsAre(HasSubstr("robot.toml:3: record.max_file_mb: expected")));
-  EXPECT_THAT(errors_of("[record]\nkeep_mb = 2048\n"), IsEmpty());
-  EXPECT_THAT(errors_of("[record]\nmax_file_mb = 0\n"), IsEmpty());
-}
-
 TEST(Conflicts, PortsDiffer) {
   EXPECT_THAT(errors_of("[lidar]\nposition_port = 2368\n"),
               ElementsAre("robot.toml:2: lidar.position_port: expected lidar.data_port and "
