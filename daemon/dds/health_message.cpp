@@ -8,7 +8,81 @@ namespace {
 
 constexpr std::int64_t kNever = -1;
 
+template <class State>
+State state_of(std::uint8_t wire) noexcept {
+  return wire <= static_cast<std::uint8_t>(State::faulty) ? static_cast<State>(wire)
+                                                          : State::faulty;
+}
+
+HostTime from_ros2_time(const builtin_interfaces_msg_dds__Time_& time) noexcept {
+  return HostTime{std::chrono::seconds{time.sec} + Duration{time.nanosec}};
+}
+
+SourceHealth source_of(const convexcut_msg_dds__SourceHealth_& message) {
+  SourceHealth source;
+  source.name = message.name;
+  source.state = state_of<SourceState>(message.state);
+  source.required = message.required;
+  source.reading.last_error = message.last_error;
+  source.reading.valid = message.valid_total;
+  source.reading.invalid = message.invalid_total;
+  source.reading.lost = message.lost_total;
+  if (message.silence_ns >= 0) source.since_valid = Duration{message.silence_ns};
+  source.valid_hz = message.valid_hz;
+  source.invalid_hz = message.invalid_hz;
+  return source;
+}
+
+SensorClock clock_of(const convexcut_msg_dds__ClockHealth_& message) {
+  SensorClock clock;
+  clock.name = message.name;
+  constexpr auto kLast = static_cast<std::uint8_t>(TimeSource::pps);
+  clock.health.source =
+      message.source <= kLast ? static_cast<TimeSource>(message.source) : TimeSource::none;
+  clock.health.locked = message.locked;
+  clock.health.steps = message.steps;
+  clock.health.offset = Duration{message.offset_ns};
+  clock.health.jitter = Duration{message.jitter_ns};
+  clock.health.skew_ppm = message.skew_ppm;
+  return clock;
+}
+
 }  // namespace
+
+HealthSnapshot snapshot_of(const convexcut_msg_dds__Health_& message) {
+  HealthSnapshot snapshot;
+  snapshot.stamp = from_ros2_time(message.stamp);
+  snapshot.uptime = Duration{message.uptime_ns};
+  snapshot.state = state_of<DaemonState>(message.state);
+  for (std::uint32_t i = 0; i < message.reasons._length; ++i) {
+    snapshot.reasons.push_back({Severity::degraded, message.reasons._buffer[i]});
+  }
+  for (std::uint32_t i = 0; i < message.sources._length; ++i) {
+    snapshot.sources.push_back(source_of(message.sources._buffer[i]));
+  }
+  for (std::uint32_t i = 0; i < message.clocks._length; ++i) {
+    snapshot.clocks.push_back(clock_of(message.clocks._buffer[i]));
+  }
+  for (std::uint32_t i = 0; i < message.stages._length; ++i) {
+    const convexcut_msg_dds__StageHealth_& stage = message.stages._buffer[i];
+    for (const StageInfo& info : kStages) {
+      if (info.name != stage.name) continue;
+      snapshot.stages[static_cast<std::size_t>(info.stage)] = {stage.count,
+                                                               Duration{0},
+                                                               Duration{stage.p50_ns},
+                                                               Duration{stage.p99_ns},
+                                                               Duration{stage.p999_ns},
+                                                               Duration{stage.max_ns}};
+    }
+  }
+  for (std::uint32_t i = 0; i < message.totals._length; ++i) {
+    for (const CounterInfo& counter : kHealthCounters) {
+      if (counter.name != message.totals._buffer[i].name) continue;
+      snapshot.totals.*counter.value = message.totals._buffer[i].value;
+    }
+  }
+  return snapshot;
+}
 
 const convexcut_msg_dds__Health_& HealthMessage::fill(const HealthSnapshot& snapshot) {
   texts_.clear();

@@ -33,4 +33,9 @@ class HealthMessage {
   convexcut_msg_dds__Health_ message_{};
 };
 
+// The snapshot that a message was filled from, but for what it does not carry (the sum of a stage,
+// the severity of a reason, the link's own word). What a newer daemon has more of is left out; a
+// state that is unknown here counts as faulty.
+[[nodiscard]] HealthSnapshot snapshot_of(const convexcut_msg_dds__Health_& message);
+
 }  // namespace convexcut::daemon

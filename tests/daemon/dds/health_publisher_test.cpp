@@ -87,6 +87,33 @@ TEST_F(HealthPublisherTest, ASecondMessageHasNothingOfTheFirst) {
   }));
 }
 
+TEST(HealthMessage, BecomesASnapshotAgain) {
+  HealthMessage message;
+  const HealthSnapshot sent = made_up_snapshot();
+  const HealthSnapshot got = snapshot_of(message.fill(sent));
+  EXPECT_EQ(got.stamp, sent.stamp);
+  EXPECT_EQ(joined(got.reasons), joined(sent.reasons));
+  HealthMessage again;
+  const Health& second = again.fill(got);
+  expect_made_up(second);
+}
+
+TEST(HealthMessage, WhatIsUnknownHereIsFaultyOrLeftOut) {
+  HealthMessage filled;
+  Health message = filled.fill(made_up_snapshot());
+  message.state = 200;
+  message.sources._buffer[0].state = 77;
+  message.clocks._buffer[0].source = 9;
+  std::string unknown = "new_in_a_later_version";
+  message.totals._buffer[0].name = unknown.data();
+  message.stages._buffer[0].name = unknown.data();
+  const HealthSnapshot got = snapshot_of(message);
+  EXPECT_EQ(got.state, DaemonState::faulty);
+  EXPECT_EQ(got.sources[0].state, SourceState::faulty);
+  EXPECT_EQ(got.clocks[0].health.source, TimeSource::none);
+  EXPECT_EQ(got.totals.results, 0U);
+}
+
 std::map<std::string, std::string> values_of(
     const diagnostic_msgs_msg_dds__DiagnosticStatus_& status) {
   std::map<std::string, std::string> values;
