@@ -51,10 +51,6 @@ std::pair<std::string_view, std::string_view> method_and_path(std::string_view r
 
 }  // namespace
 
-MetricsServer::Descriptor::~Descriptor() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 MetricsServer::MetricsServer(MetricsServerOptions options, std::string_view content_type)
     : options_(std::move(options)),
       content_type_(content_type),
@@ -102,9 +98,9 @@ void MetricsServer::show(std::string text) {
 
 void MetricsServer::run() noexcept {
   while (wait(listener_.get(), POLLIN, Deadline::max())) {
-    const Descriptor client(
+    const live::FileDescriptor client(
         ::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-    if (client.get() < 0) {
+    if (!client) {
       // Out of descriptors, most likely: not to spin until there are some again.
       if (errno != EAGAIN && errno != ECONNABORTED && errno != EINTR) ::usleep(100'000);
       continue;

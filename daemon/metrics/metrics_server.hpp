@@ -14,6 +14,7 @@
 
 #include "core/counter.hpp"
 #include "core/time.hpp"
+#include "drivers/live/file_descriptor.hpp"
 
 namespace convexcut::daemon {
 
@@ -53,17 +54,6 @@ class MetricsServer {
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_.value(); }
 
  private:
-  class Descriptor {
-   public:
-    explicit Descriptor(int fd = -1) noexcept : fd_(fd) {}
-    ~Descriptor();
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    [[nodiscard]] int get() const noexcept { return fd_; }
-
-   private:
-    int fd_;
-  };
   using Deadline = std::chrono::steady_clock::time_point;
 
   void listen();
@@ -77,8 +67,8 @@ class MetricsServer {
 
   MetricsServerOptions options_;
   std::string content_type_;
-  Descriptor listener_;
-  Descriptor stop_;  // an eventfd, readable from the stop on
+  live::FileDescriptor listener_;
+  live::FileDescriptor stop_;  // an eventfd, readable from the stop on
   std::uint16_t port_ = 0;
   std::mutex mutex_;
   std::string text_;  // under mutex_
