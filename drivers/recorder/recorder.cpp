@@ -29,7 +29,8 @@ Recorder::Recorder(RecorderOptions options, Say say)
   static_cast<void>(::pthread_setname_np(thread_.native_handle(), "record"));
 }
 
-Recorder::~Recorder() {
+void Recorder::finish() {
+  if (!thread_.joinable()) return;
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;

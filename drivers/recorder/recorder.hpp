@@ -45,8 +45,7 @@ class Recorder {
 
   // Makes the directory and starts the thread. Throws capture::CaptureError.
   Recorder(RecorderOptions options, Say say);
-  // Writes what is there, and ends. The receive threads have ended before.
-  ~Recorder();
+  ~Recorder() { finish(); }
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
@@ -54,6 +53,9 @@ class Recorder {
   [[nodiscard]] live::RawTap& tap(Stream stream) noexcept {
     return *rings_[static_cast<std::size_t>(stream)];
   }
+
+  // Writes what is there, and ends. The receive threads have ended before.
+  void finish();
 
   // Any thread.
   [[nodiscard]] const RecorderCounters& counters() const noexcept { return counters_; }
