@@ -15,8 +15,8 @@
 #include "daemon/health/source_health.hpp"
 #include "daemon/sources/live_health.hpp"
 #include "daemon/sources/live_sources.hpp"
+#include "daemon/sources/null_sink.hpp"
 #include "daemon/sources/recording_setup.hpp"
-#include "daemon/sources/recordings.hpp"
 #include "drivers/recorder/recorder.hpp"
 #include "replay/stop_signal.hpp"
 #include "replay/text.hpp"
@@ -47,7 +47,7 @@ class Recording {
         terminal_(::isatty(STDERR_FILENO) != 0),
         recorder_(daemon::recorder_options(config_.record),
                   [this](bool, const std::string& line) { say(line); }),
-        sources_(std::make_unique<LiveSources>(config_, returns_, samples_,
+        sources_(std::make_unique<LiveSources>(config_, returns_, samples_, angles_,
                                                daemon::taps_of(recorder_))) {
     for (const LiveSources::Entry& entry : sources_->entries()) {
       monitors_.emplace_back(std::string(entry.name), true);
@@ -107,7 +107,7 @@ class Recording {
     for (std::size_t i = 0; i < monitors_.size(); ++i) {
       const LiveSources::Entry& entry = sources_->entries()[i];
       const daemon::SourceState before = monitors_[i].health().state;
-      const SourceHealth& health = monitors_[i].update(reading_of(*sources_, entry), now);
+      const SourceHealth& health = monitors_[i].update(daemon::reading_of(*sources_, entry), now);
       if (!terminal_ && health.state != before) {
         say(health.name + " (" + entry.device + ") is " + std::string(name_of(health.state)));
       }
@@ -174,6 +174,7 @@ class Recording {
   StopSignal signal_;  // above what has threads
   daemon::NullSink<ReturnBatch> returns_;
   daemon::NullSink<ImuSample> samples_;
+  daemon::NullSink<EncoderSample> angles_;
   recorder::Recorder recorder_;
   std::unique_ptr<LiveSources> sources_;
   std::vector<SourceMonitor> monitors_;  // in the order of the sources' entries

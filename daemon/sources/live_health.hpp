@@ -11,7 +11,8 @@ namespace convexcut::daemon {
 [[nodiscard]] SourceReading reading_of(const LiveSources& sources,
                                        const LiveSources::Entry& entry) noexcept;
 
-// Whether there are no results without it: the lidar, and the first IMU unless the mount is fixed.
+// Whether there are no results without it: the lidar, the first IMU unless the mount is fixed, the
+// bus where it has an encoder that is used.
 [[nodiscard]] bool is_required(const LiveSources& sources, const LiveSources::Entry& entry,
                                const config::Config& config) noexcept;
 
