@@ -132,6 +132,19 @@ struct RealtimeSettings {
   bool lock_memory = true;
 };
 
+// What is recorded of live input; see docs/design/recording.md.
+struct Record {
+  std::string directory;  // empty: nothing is recorded
+  std::int64_t max_file_mb = 1024;
+  std::int64_t max_file_s = 0;  // 0: no limit
+  std::int64_t keep_mb = 0;     // 0: everything
+};
+
+struct Metrics {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;  // 0: no metrics are served
+};
+
 struct Log {
   LogLevel level = LogLevel::info;
 };
@@ -146,6 +159,8 @@ struct Config {
   Worker worker;
   RealtimeSettings realtime;
   Dds dds;
+  Record record;
+  Metrics metrics;
   Log log;
 };
 

@@ -17,6 +17,7 @@ constexpr Text kAddress{"an IPv4 address like 192.168.1.201, or nothing", is_ipv
 constexpr Text kGroup{"an IPv4 multicast group, 224.0.0.0 to 239.255.255.255, or nothing",
                       is_multicast_or_empty};
 constexpr Text kInterface{"a network interface like eth0, or nothing", is_interface_or_empty};
+constexpr Text kListenAddress{"an IPv4 address like 127.0.0.1", is_ipv4};
 
 constexpr Text kCpus{"CPU numbers and ranges like 0,2-3, or nothing", is_cpus_or_empty};
 
@@ -37,6 +38,8 @@ constexpr std::array kSections{
     Section{"worker", "The grid on which results are made and published."},
     Section{"realtime", "How the threads are kept on time."},
     Section{"dds", "What is published, where and how."},
+    Section{"record", "Recording of what the live sources send."},
+    Section{"metrics", "Metrics for Prometheus, over HTTP."},
     Section{"log", "The log on standard error."},
 };
 
@@ -247,6 +250,26 @@ constexpr std::array kKeys{
     bind_key<&Config::dds, &Dds::max_blocking_ms>(
         "dds.max_blocking_ms", Integer{1, 10'000}, "ms",
         "How long a reliable write may wait for slow subscribers before it is given up."),
+
+    bind_key<&Config::record, &Record::directory>(
+        "record.directory", kPath, "",
+        "Directory for lidar_000.pcap, imu_000.pcap, can_000.pcap …; empty: nothing is recorded."),
+    bind_key<&Config::record, &Record::max_file_mb>(
+        "record.max_file_mb", Integer{0, 1'000'000}, "MB",
+        "A file of about this size is ended and the next begun; 0: of any size."),
+    bind_key<&Config::record, &Record::max_file_s>(
+        "record.max_file_s", Integer{0, 1'000'000}, "s",
+        "A file that covers this time is ended and the next begun; 0: any time."),
+    bind_key<&Config::record, &Record::keep_mb>(
+        "record.keep_mb", Integer{0, 1'000'000'000}, "MB",
+        "The oldest files are deleted beyond this, and none gets larger than a quarter of it; 0: "
+        "none is."),
+
+    bind_key<&Config::metrics, &Metrics::address>(
+        "metrics.address", kListenAddress, "",
+        "The host's address on which metrics are served; 0.0.0.0: all of them."),
+    bind_key<&Config::metrics, &Metrics::port>("metrics.port", Integer{0, 65535}, "",
+                                               "TCP port of http://ADDRESS:PORT/metrics; 0: none."),
 
     bind_key<&Config::log, &Log::level>("log.level", kChoice<LogLevel>, "",
                                         "The least severe messages to write."),
