@@ -2,7 +2,7 @@
 # Builds and checks everything, as continuous integration does, and closes with the counts.
 #   ./test.sh            all that CI runs (about 20 minutes on two cores)
 #   ./test.sh --quick    release build and its tests only
-#   ./test.sh STEP …     chosen steps: format release asan tsan fuzz bench, and tidy, analyze
+#   ./test.sh STEP …     chosen steps: format release asan tsan fuzz bench, and vm, tidy, analyze
 # FUZZ_SECONDS (20) is the time of each fuzz target.
 set -uo pipefail
 cd "$(dirname "$0")"
@@ -71,6 +71,23 @@ build_preset() {
   cmake --preset "$preset" "${defines[@]}" && cmake --build --preset "$preset" --target "$target" -j 2
 }
 
+# guest_checks: the release build in a guest (tests/vm), whose checks are added to ours.
+guest_checks() {
+  local log="$logs/vm.log" status
+  scripts/install-packages.sh vm || echo "        packages of the guest cannot be installed"
+  tests/vm/run.sh 2>&1 | tee "$log"
+  status=${PIPESTATUS[0]}
+  passed=$((passed + $(grep -c '^ok ' "$log")))
+  case $status in
+    0) echo "ok      vm: $(grep -c '^ok ' "$log") checks in the guest" ;;
+    77) skipped=$((skipped + 1)) ;;
+    *)
+      failed=$((failed + 1))
+      failures+=("vm: $log")
+      ;;
+  esac
+}
+
 for step in "${steps[@]}"; do
   case "$step" in
     format) check format scripts/check-format.sh ;;
@@ -92,9 +109,10 @@ for step in "${steps[@]}"; do
       fi
       ;;
     bench) check bench scripts/check-ratios.sh && sed -n 's/^figure: /        /p' "$logs/bench.log" ;;
+    vm) check build-for-vm build_preset release && guest_checks ;;
     tidy) check tidy scripts/check-tidy.sh ;;
     analyze) check analyze scripts/check-tidy.sh analyze ;;
-    *) echo "test.sh: unknown step '$step': expected format release asan tsan fuzz bench tidy analyze" >&2; exit 2 ;;
+    *) echo "test.sh: unknown step '$step': expected format release asan tsan fuzz bench vm tidy analyze" >&2; exit 2 ;;
   esac
 done
 

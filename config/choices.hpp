@@ -26,7 +26,19 @@ inline constexpr std::array<std::string_view, 4> kNames<DualReturn>{"farthest", 
 template <>
 inline constexpr std::array<std::string_view, 2> kNames<MountOrientation>{"imu", "fixed"};
 template <>
+inline constexpr std::array<std::string_view, 3> kNames<EncoderUse>{"off", "yaw", "orientation"};
+template <>
+inline constexpr std::array<std::string_view, 2> kNames<EncoderAxis>{"rotation", "tilt"};
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<EncoderPreset>{"none", "cia402_position",
+                                                                       "cia402_position_sdo"};
+template <>
+inline constexpr std::array<std::string_view, 2> kNames<ByteOrder>{"intel", "motorola"};
+template <>
 inline constexpr std::array<std::string_view, 1> kNames<Method>{"paper"};
+template <>
+inline constexpr std::array<std::string_view, 6> kNames<SimdPath>{"auto", "avx512", "avx2",
+                                                                  "sse4", "neon",   "baseline"};
 template <>
 inline constexpr std::array<std::string_view, 4> kNames<LogLevel>{"error", "warning", "info",
                                                                   "debug"};
@@ -40,6 +52,12 @@ static_assert(kNames<CutMode>[static_cast<std::size_t>(CutMode::clock)] == "cloc
 static_assert(kNames<DualReturn>[static_cast<std::size_t>(DualReturn::both)] == "both");
 static_assert(kNames<MountOrientation>[static_cast<std::size_t>(MountOrientation::fixed)] ==
               "fixed");
+static_assert(kNames<EncoderUse>[static_cast<std::size_t>(EncoderUse::orientation)] ==
+              "orientation");
+static_assert(kNames<EncoderAxis>[static_cast<std::size_t>(EncoderAxis::tilt)] == "tilt");
+static_assert(kNames<EncoderPreset>[static_cast<std::size_t>(EncoderPreset::cia402_position_sdo)] ==
+              "cia402_position_sdo");
+static_assert(kNames<ByteOrder>[static_cast<std::size_t>(ByteOrder::motorola)] == "motorola");
 static_assert(kNames<Method>[static_cast<std::size_t>(Method::paper)] == "paper");
 static_assert(kNames<LogLevel>[static_cast<std::size_t>(LogLevel::debug)] == "debug");
 static_assert(kNames<Realtime>[static_cast<std::size_t>(Realtime::off)] == "off");

@@ -17,7 +17,12 @@ enum class LidarModel : std::uint8_t { automatic, hdl32e, vlp16, puck_hires, vlp
 enum class CutMode : std::uint8_t { revolution, clock };
 enum class DualReturn : std::uint8_t { farthest, last, strongest, both };
 enum class MountOrientation : std::uint8_t { imu, fixed };
+enum class EncoderUse : std::uint8_t { off, yaw, orientation };
+enum class EncoderAxis : std::uint8_t { rotation, tilt };
+enum class EncoderPreset : std::uint8_t { none, cia402_position, cia402_position_sdo };
+enum class ByteOrder : std::uint8_t { intel, motorola };
 enum class Method : std::uint8_t { paper };
+enum class SimdPath : std::uint8_t { automatic, avx512, avx2, sse4, neon, baseline };
 enum class LogLevel : std::uint8_t { error, warning, info, debug };
 enum class Realtime : std::uint8_t { automatic, on, off };
 enum class Reliability : std::uint8_t { reliable, best_effort };
@@ -61,6 +66,7 @@ struct Imu {
 };
 
 struct Can {
+  std::string interface;  // network interface of the live bus; empty: none
   std::uint32_t bitrate = 250000;
   std::uint32_t sample_time_id = 0x005;
   std::uint32_t group_counter_id = 0x006;
@@ -72,12 +78,29 @@ struct Can {
   bool extended_ids = false;
 };
 
+// The encoder of a stage that turns the lidar, on the same bus as the IMU.
+struct Encoder {
+  EncoderUse use = EncoderUse::off;
+  EncoderAxis axis = EncoderAxis::rotation;
+  EncoderPreset preset = EncoderPreset::none;
+  std::uint32_t id = 0x181;
+  bool extended_id = false;
+  ByteOrder byte_order = ByteOrder::intel;
+  std::uint32_t start_bit = 0;
+  std::uint32_t length_bits = 32;
+  bool is_signed = true;
+  double scale_deg = 0.001;  // of a count
+  Degrees offset{0.0};
+  std::int64_t timeout_ms = 100;
+};
+
 struct ConvexCut {
   Method method = Method::paper;
   std::uint32_t planes = 360;
   double half_width_m = 0.05;
   double hull_distance_m = 0.08;
   std::uint32_t threads = 1;
+  SimdPath simd = SimdPath::automatic;
 };
 
 struct Worker {
@@ -109,6 +132,19 @@ struct RealtimeSettings {
   bool lock_memory = true;
 };
 
+// What is recorded of live input; see docs/design/recording.md.
+struct Record {
+  std::string directory;  // empty: nothing is recorded
+  std::int64_t max_file_mb = 1024;
+  std::int64_t max_file_s = 0;  // 0: no limit
+  std::int64_t keep_mb = 0;     // 0: everything
+};
+
+struct Metrics {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;  // 0: no metrics are served
+};
+
 struct Log {
   LogLevel level = LogLevel::info;
 };
@@ -118,10 +154,13 @@ struct Config {
   Mount mount;
   Imu imu;
   Can can;
+  Encoder encoder;
   ConvexCut convex_cut;
   Worker worker;
   RealtimeSettings realtime;
   Dds dds;
+  Record record;
+  Metrics metrics;
   Log log;
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "config/schema.hpp"
@@ -40,10 +41,17 @@ class Conflicts {
     }
   }
 
-  void require_standard_id(std::string_view key) {
+  void require_standard_id(std::string_view key, std::string_view extended) {
     if (number(key) <= kStandardCanIds) return;
-    add({key, "can.extended_ids"},
-        concat("expected at most 0x7ff without can.extended_ids, found ", key, " = ", shown(key)));
+    add({key, extended},
+        concat("expected at most 0x7ff without ", extended, ", found ", key, " = ", shown(key)));
+  }
+
+  // Where `key` = `value` of it asks for `wanted` of another key.
+  void require_with(std::string_view key, std::string_view other, std::string_view wanted) {
+    if (std::get<std::string>(value(other)) == wanted) return;
+    add({key, other}, concat("expected ", other, " = \"", wanted, "\" with ", key, " = ",
+                             shown(key), ", found ", shown(other)));
   }
 
   [[nodiscard]] std::vector<Conflict> take() { return std::move(found_); }
@@ -107,6 +115,39 @@ void check_imu_configuration(const Imu& imu, Conflicts& conflicts) {
   }
 }
 
+// From the start bit to the end of the longest frame.
+std::uint32_t bits_behind(const Encoder& encoder) {
+  constexpr std::uint32_t kFrameBits = 64 * 8;
+  const std::uint32_t start = encoder.start_bit;
+  if (encoder.byte_order == ByteOrder::intel) return kFrameBits - start;
+  return kFrameBits - start / 8 * 8 - (7 - start % 8);
+}
+
+void check_encoder(const Config& config, std::span<const std::string_view> can_ids,
+                   Conflicts& conflicts) {
+  const Encoder& encoder = config.encoder;
+  conflicts.require_with("encoder.use", "mount.orientation",
+                         encoder.use == EncoderUse::yaw ? "imu" : "fixed");
+  if (encoder.use == EncoderUse::yaw) {
+    conflicts.require_with("encoder.use", "encoder.axis", "rotation");
+  }
+  if (!encoder.extended_id) conflicts.require_standard_id("encoder.id", "encoder.extended_id");
+  if (encoder.extended_id == config.can.extended_ids) {
+    for (const std::string_view id : can_ids) {
+      conflicts.require_different(std::array<std::string_view, 2>{"encoder.id", id});
+    }
+  }
+  if (encoder.scale_deg == 0.0) {
+    conflicts.add({"encoder.scale_deg"}, "expected another number than 0, found 0");
+  }
+  if (encoder.preset == EncoderPreset::none && encoder.length_bits > bits_behind(encoder)) {
+    conflicts.add({"encoder.start_bit", "encoder.length_bits", "encoder.byte_order"},
+                  "expected a count that ends within 64 bytes, found " +
+                      std::to_string(encoder.length_bits) + " bits from bit " +
+                      std::to_string(encoder.start_bit));
+  }
+}
+
 }  // namespace
 
 std::vector<Conflict> find_conflicts(const Config& config) {
@@ -122,12 +163,15 @@ std::vector<Conflict> find_conflicts(const Config& config) {
       std::array<std::string_view, 2>{"lidar.data_port", "lidar.position_port"});
   conflicts.require_different(kCanIds);
   if (!config.can.extended_ids) {
-    for (const std::string_view id : kCanIds) conflicts.require_standard_id(id);
+    for (const std::string_view id : kCanIds) {
+      conflicts.require_standard_id(id, "can.extended_ids");
+    }
   }
   conflicts.require_different(
       std::array<std::string_view, 3>{"dds.structure_topic", "dds.points_topic", "dds.imu_topic"});
   conflicts.require_different(std::array<std::string_view, 2>{"dds.level_frame", "dds.imu_frame"});
   check_imu_configuration(config.imu, conflicts);
+  if (config.encoder.use != EncoderUse::off) check_encoder(config, kCanIds, conflicts);
   const auto collision =
       port_collision(config.dds.domain, config.lidar.data_port, config.lidar.position_port);
   if (collision) {

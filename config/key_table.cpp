@@ -17,6 +17,7 @@ constexpr Text kAddress{"an IPv4 address like 192.168.1.201, or nothing", is_ipv
 constexpr Text kGroup{"an IPv4 multicast group, 224.0.0.0 to 239.255.255.255, or nothing",
                       is_multicast_or_empty};
 constexpr Text kInterface{"a network interface like eth0, or nothing", is_interface_or_empty};
+constexpr Text kListenAddress{"an IPv4 address like 127.0.0.1", is_ipv4};
 
 constexpr Text kCpus{"CPU numbers and ranges like 0,2-3, or nothing", is_cpus_or_empty};
 
@@ -31,11 +32,14 @@ constexpr std::array kSections{
     Section{"lidar", "The lidar: which model, what of it is used, and where scans are cut."},
     Section{"mount", "How the lidar is mounted, where no IMU tells."},
     Section{"imu", "The serial IMU and how it sits on the lidar."},
-    Section{"can", "The IMU on a CAN bus: identifiers of its messages."},
+    Section{"can", "The CAN bus, and the identifiers of the messages of the IMU on it."},
+    Section{"encoder", "The angle of a stage that turns the lidar, on the same bus."},
     Section{"convex_cut", "The extraction of structure."},
     Section{"worker", "The grid on which results are made and published."},
     Section{"realtime", "How the threads are kept on time."},
     Section{"dds", "What is published, where and how."},
+    Section{"record", "Recording of what the live sources send."},
+    Section{"metrics", "Metrics for Prometheus, over HTTP."},
     Section{"log", "The log on standard error."},
 };
 
@@ -119,6 +123,9 @@ constexpr std::array kKeys{
         "imu.scan_baud", Boolean{}, "",
         "Whether an IMU to be configured that does not answer is tried at other rates."),
 
+    bind_key<&Config::can, &Can::interface>(
+        "can.interface", kInterface, "",
+        "The network interface of the live bus, like can0; empty: none."),
     bind_key<&Config::can, &Can::bitrate>("can.bitrate", Integer{5'000, 1'000'000}, "bit/s",
                                           "Rate of the bus, which gives the time a frame takes."),
     bind_key<&Config::can, &Can::sample_time_id>("can.sample_time_id", kCanId, "",
@@ -139,6 +146,42 @@ constexpr std::array kKeys{
         "can.extended_ids", Boolean{}, "",
         "Whether the identifiers are extended ones (29 bits) and not standard (11 bits)."),
 
+    bind_key<&Config::encoder, &Encoder::use>(
+        "encoder.use", kChoice<EncoderUse>, "",
+        "Whether the angle replaces the heading of the IMU, or with the fixed mount all of it."),
+    bind_key<&Config::encoder, &Encoder::axis>(
+        "encoder.axis", kChoice<EncoderAxis>, "",
+        "What the stage turns the lidar about: its z axis (rotation) or its y axis (tilt)."),
+    bind_key<&Config::encoder, &Encoder::preset>(
+        "encoder.preset", kChoice<EncoderPreset>, "",
+        "A known layout instead of the one below: the position of a CiA 402 drive, behind the "
+        "statusword in a PDO, or in answers to SDO uploads of others."),
+    bind_key<&Config::encoder, &Encoder::id>("encoder.id", kCanId, "",
+                                             "Identifier of the encoder's message."),
+    bind_key<&Config::encoder, &Encoder::extended_id>(
+        "encoder.extended_id", Boolean{}, "",
+        "Whether the identifier is an extended one (29 bits) and not standard (11 bits)."),
+    bind_key<&Config::encoder, &Encoder::byte_order>(
+        "encoder.byte_order", kChoice<ByteOrder>, "",
+        "Least significant byte first (intel) or most significant byte first (motorola)."),
+    bind_key<&Config::encoder, &Encoder::start_bit>(
+        "encoder.start_bit", Integer{0, 511}, "",
+        "Bit n % 8 of byte n / 8: the least significant bit of an intel count, the most "
+        "significant "
+        "one of a motorola count."),
+    bind_key<&Config::encoder, &Encoder::length_bits>("encoder.length_bits", Integer{1, 64}, "",
+                                                      "Bits of the count."),
+    bind_key<&Config::encoder, &Encoder::is_signed>("encoder.signed", Boolean{}, "",
+                                                    "Whether the count can be negative."),
+    bind_key<&Config::encoder, &Encoder::scale_deg>(
+        "encoder.scale_deg", kTurn, "°",
+        "Angle of one count: 360 / counts of a turn / gear; negative: it counts the other way."),
+    bind_key<&Config::encoder, &Encoder::offset>("encoder.offset_deg", kTurn, "°",
+                                                 "Added to the angle: its value at count 0."),
+    bind_key<&Config::encoder, &Encoder::timeout_ms>(
+        "encoder.timeout_ms", Integer{1, 10'000}, "ms",
+        "How long an angle is held, or interpolated over, when messages are missing."),
+
     bind_key<&Config::convex_cut, &ConvexCut::method>("convex_cut.method", kChoice<Method>, "",
                                                       "The method; paper is the published one."),
     bind_key<&Config::convex_cut, &ConvexCut::planes>(
@@ -152,6 +195,9 @@ constexpr std::array kKeys{
         "A point is structure when it is at most this far from its slice's hull."),
     bind_key<&Config::convex_cut, &ConvexCut::threads>("convex_cut.threads", Integer{1, 64}, "",
                                                        "Threads that share the work."),
+    bind_key<&Config::convex_cut, &ConvexCut::simd>(
+        "convex_cut.simd", kChoice<SimdPath>, "",
+        "The instruction set to compute with; auto takes the best that the processor has."),
 
     bind_key<&Config::worker, &Worker::period_ms>(
         "worker.period_ms", Integer{10, 1'000}, "ms",
@@ -204,6 +250,26 @@ constexpr std::array kKeys{
     bind_key<&Config::dds, &Dds::max_blocking_ms>(
         "dds.max_blocking_ms", Integer{1, 10'000}, "ms",
         "How long a reliable write may wait for slow subscribers before it is given up."),
+
+    bind_key<&Config::record, &Record::directory>(
+        "record.directory", kPath, "",
+        "Directory for lidar_000.pcap, imu_000.pcap, can_000.pcap …; empty: nothing is recorded."),
+    bind_key<&Config::record, &Record::max_file_mb>(
+        "record.max_file_mb", Integer{0, 1'000'000}, "MB",
+        "A file of about this size is ended and the next begun; 0: of any size."),
+    bind_key<&Config::record, &Record::max_file_s>(
+        "record.max_file_s", Integer{0, 1'000'000}, "s",
+        "A file that covers this time is ended and the next begun; 0: any time."),
+    bind_key<&Config::record, &Record::keep_mb>(
+        "record.keep_mb", Integer{0, 1'000'000'000}, "MB",
+        "The oldest files are deleted beyond this, and none gets larger than a quarter of it; 0: "
+        "none is."),
+
+    bind_key<&Config::metrics, &Metrics::address>(
+        "metrics.address", kListenAddress, "",
+        "The host's address on which metrics are served; 0.0.0.0: all of them."),
+    bind_key<&Config::metrics, &Metrics::port>("metrics.port", Integer{0, 65535}, "",
+                                               "TCP port of http://ADDRESS:PORT/metrics; 0: none."),
 
     bind_key<&Config::log, &Log::level>("log.level", kChoice<LogLevel>, "",
                                         "The least severe messages to write."),

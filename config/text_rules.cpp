@@ -66,7 +66,8 @@ std::optional<std::uint32_t> parse_ipv4(std::string_view text) noexcept {
   return next == end ? std::optional(address) : std::nullopt;
 }
 
-bool is_ipv4_or_empty(std::string_view text) noexcept { return text.empty() || parse_ipv4(text); }
+bool is_ipv4(std::string_view text) noexcept { return parse_ipv4(text).has_value(); }
+bool is_ipv4_or_empty(std::string_view text) noexcept { return text.empty() || is_ipv4(text); }
 
 bool is_multicast_or_empty(std::string_view text) noexcept {
   constexpr std::uint32_t kClassMask = 0xF0000000;

@@ -24,6 +24,7 @@ namespace convexcut::config {
 
 // Dotted decimal, four numbers 0 … 255 without leading zeros: 192.168.1.201 is 0xC0A801C9.
 [[nodiscard]] std::optional<std::uint32_t> parse_ipv4(std::string_view text) noexcept;
+[[nodiscard]] bool is_ipv4(std::string_view text) noexcept;
 [[nodiscard]] bool is_ipv4_or_empty(std::string_view text) noexcept;
 // 224.0.0.0 … 239.255.255.255 (RFC 5771).
 [[nodiscard]] bool is_multicast_or_empty(std::string_view text) noexcept;

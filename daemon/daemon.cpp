@@ -64,7 +64,7 @@ Daemon::Daemon(const DaemonOptions& options)
                            [&] {
                              return Worker(live_pipeline_options(options.config),
                                            worker_options(options.config.worker), inputs_->clock(),
-                                           rings_.lidar, rings_.imu, results_);
+                                           rings_.lidar, rings_.imu, rings_.encoder, results_);
                            })),
       participant_(options.config.dds),
       scans_(participant_, options.config.dds, inputs_->clock(), results_,

@@ -24,11 +24,13 @@ constexpr Duration kStepGuard = std::chrono::seconds{1};
 }  // namespace
 
 Worker::Worker(const PipelineOptions& pipeline, const WorkerOptions& options, Clock& clock,
-               SpscRing<ReturnBatch>& lidar, SpscRing<ImuSample>& imu, ResultRing& results)
+               SpscRing<ReturnBatch>& lidar, SpscRing<ImuSample>& imu,
+               SpscRing<EncoderSample>& encoder, ResultRing& results)
     : options_(options),
       clock_(clock),
       lidar_(lidar),
       imu_(imu),
+      encoder_(encoder),
       results_(results),
       pipeline_(pipeline),
       grid_(options.period) {}
@@ -47,7 +49,10 @@ void Worker::run(const std::atomic<bool>& stop, const std::atomic<bool>& lidar_e
     const bool no_more_imu = imu_ended.load(std::memory_order_acquire);
     const HostTime now = clock_.now();
     const bool drained = drain(now);
-    if (no_more_imu) pipeline_.end_of_imu();
+    if (no_more_imu) {
+      pipeline_.end_of_imu();
+      pipeline_.end_of_encoder();
+    }
     if (no_more_lidar && drained) pipeline_.end_of_lidar();
     if (clock_.paced() && !no_more_lidar) {
       end_of_silent_lidar(now);
@@ -69,7 +74,8 @@ void Worker::follow_clock() noexcept {
   // Whatever waits may have been stamped before or after.
   const std::size_t packets = lidar_.consume([](ReturnBatch&) noexcept {});
   const std::size_t samples = imu_.consume([](ImuSample&) noexcept {});
-  counters_.dropped_by_clock_step.add(packets + samples);
+  const std::size_t angles = encoder_.consume([](EncoderSample&) noexcept {});
+  counters_.dropped_by_clock_step.add(packets + samples + angles);
   pipeline_.restart_time();
   step_guard_until_ = clock_.now() + kStepGuard;
   step_guard_width_ = std::chrono::abs(step) / 2;
@@ -79,6 +85,9 @@ bool Worker::drain(HostTime now) noexcept {
   // Orientations first: a scan that the lidar's packets close finds its own.
   imu_.consume([this, now](ImuSample& sample) noexcept {
     if (!stamped_before_step(sample.arrival, now)) pipeline_.on_imu(sample);
+  });
+  encoder_.consume([this, now](EncoderSample& sample) noexcept {
+    if (!stamped_before_step(sample.arrival, now)) pipeline_.on_encoder(sample);
   });
   const auto take = [this, now](ReturnBatch& batch) noexcept {
     if (stamped_before_step(batch.arrival, now)) return;

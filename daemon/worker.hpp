@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "core/counter.hpp"
+#include "core/encoder_sample.hpp"
 #include "core/histogram.hpp"
 #include "core/imu_sample.hpp"
 #include "core/return_batch.hpp"
@@ -43,7 +44,8 @@ struct WorkerCounters {
 class Worker {
  public:
   Worker(const PipelineOptions& pipeline, const WorkerOptions& options, Clock& clock,
-         SpscRing<ReturnBatch>& lidar, SpscRing<ImuSample>& imu, ResultRing& results);
+         SpscRing<ReturnBatch>& lidar, SpscRing<ImuSample>& imu, SpscRing<EncoderSample>& encoder,
+         ResultRing& results);
 
   // The thread's body: returns when both inputs have ended and everything is handed on, or on stop.
   // While time is not paced every scan is a result; otherwise there is one result an instant.
@@ -80,6 +82,7 @@ class Worker {
   Clock& clock_;
   SpscRing<ReturnBatch>& lidar_;
   SpscRing<ImuSample>& imu_;
+  SpscRing<EncoderSample>& encoder_;
   ResultRing& results_;
   Pipeline pipeline_;
   ResultGrid grid_;

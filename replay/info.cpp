@@ -318,8 +318,8 @@ class ImuInfo {
 
 class CanInfo {
  public:
-  CanInfo(const std::filesystem::path& file, const config::Can& settings)
-      : file_(file), recording_(file, daemon::can_driver_options(settings), samples_) {
+  CanInfo(const std::filesystem::path& file, const config::Config& config)
+      : file_(file), recording_(file, daemon::bus_options(config), samples_, angles_) {
     run(recording_, "can");
     warn(recording_);
     if (recording_.frames() == 0) {
@@ -340,6 +340,9 @@ class CanInfo {
                 grouped(samples_.samples()).c_str(), samples_.rate_hz(),
                 grouped(samples_.orientations()).c_str());
     if (samples_.samples() > 0) print_clock(samples_.clock());
+    if (recording_.encoder() != nullptr) {
+      std::printf("  angles       %s of the stage\n", grouped(angles()).c_str());
+    }
     for (const auto& [id, count] : recording_.frames_by_id()) {
       std::printf("    0x%03X  %8s x\n", id, grouped(count).c_str());
     }
@@ -358,12 +361,18 @@ class CanInfo {
         .add("orientations", samples_.orientations())
         .add("rate_hz", samples_.rate_hz(), 2)
         .add("clock", clock_json(samples_.clock()))
+        .add("angles", angles())
         .add("ids", ids);
   }
 
  private:
+  [[nodiscard]] std::uint64_t angles() const {
+    return recording_.encoder() != nullptr ? recording_.encoder()->counters().samples.value() : 0;
+  }
+
   std::filesystem::path file_;
   SampleInspector samples_;
+  daemon::NullSink<EncoderSample> angles_;
   recording::CanRecording recording_;
 };
 
@@ -385,7 +394,7 @@ void info(const InfoOptions& options) {
     show(LidarInfo(paths.lidar, options.config.lidar), options.json, objects);
   }
   if (!paths.imu.empty()) show(ImuInfo(paths.imu, options.config.imu), options.json, objects);
-  if (!paths.can.empty()) show(CanInfo(paths.can, options.config.can), options.json, objects);
+  if (!paths.can.empty()) show(CanInfo(paths.can, options.config), options.json, objects);
   if (options.json) {
     std::puts(JsonObject().add("recordings", objects).text().c_str());
   }

@@ -31,23 +31,54 @@ class LidarInput final : public Sink<ReturnBatch> {
   ReturnBatch batch_;
 };
 
+// When the samples of one kind came.
+class TimeSpan {
+ public:
+  void add(HostTime time) {
+    first_ = std::min(first_, time);
+    last_ = std::max(last_, time);
+  }
+  // "the IMU recording (… to …) and "; nothing without samples.
+  [[nodiscard]] std::string text(const char* of_what) const {
+    if (first_ > last_) return {};
+    return std::string("the ") + of_what + " (" + utc(first_) + " to " + utc(last_) + ") and ";
+  }
+
+ private:
+  HostTime first_ = HostTime::max();
+  HostTime last_ = HostTime::min();
+};
+
 class ImuInput final : public Sink<ImuSample> {
  public:
   explicit ImuInput(daemon::Pipeline& pipeline) : pipeline_(pipeline) {}
   [[nodiscard]] ImuSample* claim() noexcept override { return &sample_; }
   void commit() noexcept override {
-    first_ = std::min(first_, sample_.arrival);
-    last_ = std::max(last_, sample_.arrival);
+    span_.add(sample_.arrival);
     pipeline_.on_imu(sample_);
   }
-  [[nodiscard]] HostTime first() const noexcept { return first_; }
-  [[nodiscard]] HostTime last() const noexcept { return last_; }
+  [[nodiscard]] const TimeSpan& span() const noexcept { return span_; }
 
  private:
   daemon::Pipeline& pipeline_;
   ImuSample sample_;
-  HostTime first_ = HostTime::max();
-  HostTime last_ = HostTime::min();
+  TimeSpan span_;
+};
+
+class EncoderInput final : public Sink<EncoderSample> {
+ public:
+  explicit EncoderInput(daemon::Pipeline& pipeline) : pipeline_(pipeline) {}
+  [[nodiscard]] EncoderSample* claim() noexcept override { return &sample_; }
+  void commit() noexcept override {
+    span_.add(sample_.arrival);
+    pipeline_.on_encoder(sample_);
+  }
+  [[nodiscard]] const TimeSpan& span() const noexcept { return span_; }
+
+ private:
+  daemon::Pipeline& pipeline_;
+  EncoderSample sample_;
+  TimeSpan span_;
 };
 
 struct Totals {
@@ -69,7 +100,8 @@ class Run {
         pipeline_(daemon::pipeline_options(options.config, threads_)),
         lidar_input_(pipeline_),
         imu_input_(pipeline_),
-        recordings_(options.recordings, options.config, lidar_input_, imu_input_),
+        encoder_input_(pipeline_),
+        recordings_(options.recordings, options.config, lidar_input_, imu_input_, encoder_input_),
         writer_(options.out, options.format),
         output_(writer_, daemon::Pipeline::kMaxReturnsPerScan) {}
 
@@ -86,6 +118,7 @@ class Run {
     }
     recordings_.finish();
     pipeline_.end_of_imu();
+    pipeline_.end_of_encoder();
     pipeline_.end_of_lidar();
     take_ready_scans(now);
     recordings_.check_content();
@@ -139,12 +172,11 @@ class Run {
 
   void check_overlap() const {
     if (totals_.points > 0 || totals_.dropped_no_orientation == 0) return;
-    throw std::runtime_error("the IMU recording (" + utc(imu_input_.first()) + " to " +
-                             utc(imu_input_.last()) + ") and the lidar recording (from " +
-                             utc(first_lidar_) +
+    throw std::runtime_error(imu_input_.span().text("IMU recording") +
+                             encoder_input_.span().text("angles of the stage") +
+                             "the lidar recording (from " + utc(first_lidar_) +
                              ") do not overlap in time: expected orientations during the lidar's "
-                             "packets; for a raw .bin "
-                             "stream set --imu-start");
+                             "packets; for a raw .bin stream set --imu-start");
   }
 
   struct HeldBack {
@@ -157,6 +189,7 @@ class Run {
   daemon::Pipeline pipeline_;
   LidarInput lidar_input_;
   ImuInput imu_input_;
+  EncoderInput encoder_input_;
   daemon::Recordings recordings_;
   ScanWriter writer_;
   ScanOutput output_;

@@ -59,7 +59,12 @@ void add_playing(CLI::App& app, Arguments& args) {
   PlayerOptions& player = args.options.player;
   app.add_option("--rate", args.rate, "Recorded seconds per second, or max (default 1)")
       ->type_name("X|max");
-  app.add_flag("--loop", player.loop, "Again and again, until a signal");
+  CLI::Option* times = app.add_option("--times", player.times, "Play it so many times (default 1)")
+                           ->check(CLI::Range(1, 1'000'000'000))
+                           ->type_name("N");
+  app.add_flag_callback(
+         "--loop", [&player] { player.times = 0; }, "Again and again, until a signal")
+      ->excludes(times);
   add_seconds(app, "--from", "Begin here, after the first record",
               [&player](Duration span) { player.from = span; });
   add_seconds(app, "--to", "End here, after the first record",

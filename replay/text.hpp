@@ -26,6 +26,10 @@ namespace convexcut::replay {
   return static_cast<double>(duration.count()) * 1e-9;
 }
 
+[[nodiscard]] inline double milliseconds(Duration duration) noexcept {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
 // One JSON object on one line, in the order of the calls.
 class JsonObject {
  public:

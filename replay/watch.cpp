@@ -4,27 +4,25 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <sys/signalfd.h>
 #include <system_error>
 #include <unistd.h>
 
-#include "daemon/dds/participant.hpp"
-#include "daemon/dds/qos.hpp"
-#include "daemon/dds/ros2_type.hpp"
-#include "daemon/dds/topic_name.hpp"
+#include "daemon/dds/health_message.hpp"
+#include "replay/health_report.hpp"
+#include "replay/stop_signal.hpp"
+#include "replay/subscription.hpp"
 #include "replay/watch_report.hpp"
 
 namespace convexcut::replay {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using daemon::Entity;
 
 constexpr std::chrono::seconds kInterval{1};
 constexpr unsigned kLinesAHeader = 20;
@@ -32,112 +30,20 @@ constexpr unsigned kLinesAHeader = 20;
 constexpr std::int32_t kCloudDepth = 5;
 constexpr std::int32_t kSmallMessageDepth = 500;
 
-class FileDescriptor {
- public:
-  FileDescriptor(int fd, const char* what) : fd_(fd) {
-    if (fd < 0) throw std::system_error(errno, std::generic_category(), what);
-  }
-  ~FileDescriptor() { ::close(fd_); }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  [[nodiscard]] int get() const noexcept { return fd_; }
-
- private:
-  int fd_;
-};
-
-// SIGINT and SIGTERM as something to poll. Made before DDS starts its threads: they inherit the
-// mask, so that none of them takes the signal.
-class StopSignal {
- public:
-  StopSignal() : fd_(::signalfd(-1, &block(), SFD_CLOEXEC | SFD_NONBLOCK), "signalfd") {}
-  ~StopSignal() {
-    signalfd_siginfo taken{};  // else it would come once more when it is let through
-    while (::read(fd_.get(), &taken, sizeof taken) > 0) {
-    }
-    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-  StopSignal(const StopSignal&) = delete;
-  StopSignal& operator=(const StopSignal&) = delete;
-  [[nodiscard]] int fd() const noexcept { return fd_.get(); }
-
- private:
-  const sigset_t& block() {
-    ::sigemptyset(&signals_);
-    ::sigaddset(&signals_, SIGINT);
-    ::sigaddset(&signals_, SIGTERM);
-    ::pthread_sigmask(SIG_BLOCK, &signals_, &before_);
-    return signals_;
-  }
-  sigset_t signals_{};
-  sigset_t before_{};
-  FileDescriptor fd_;
-};
-
-// A reader that writes to an eventfd, which outlives it, when data has come.
-class Subscription {
- public:
-  Subscription(const daemon::Participant& participant, const daemon::Ros2Type& type,
-               std::string_view ros_name, std::int32_t depth, FileDescriptor& data_came)
-      : name_(daemon::dds_topic_name(ros_name)),
-        topic_(daemon::require(dds_create_topic(participant.handle(), type.descriptor,
-                                                name_.c_str(), nullptr, nullptr),
-                               name_)) {
-    dds_listener_t* listener = dds_create_listener(&data_came);
-    dds_lset_data_available(listener, [](dds_entity_t, void* argument) {
-      ::eventfd_write(static_cast<const FileDescriptor*>(argument)->get(), 1);
-    });
-    const dds_entity_t reader = dds_create_reader(participant.handle(), topic_.get(),
-                                                  daemon::reader_qos(depth, type).get(), listener);
-    dds_delete_listener(listener);
-    reader_ = daemon::require(reader, name_);
-  }
-
-  // Calls use(const T&) for everything that has come.
-  template <class T, class Use>
-  void take_all(Use use) {
-    void* sample = nullptr;
-    dds_sample_info_t info;
-    while (dds_take(reader_.get(), &sample, &info, 1, 1) == 1) {
-      if (info.valid_data) use(*static_cast<const T*>(sample));
-      static_cast<void>(dds_return_loan(reader_.get(), &sample, 1));
-      sample = nullptr;
-    }
-  }
-
-  [[nodiscard]] std::uint32_t publishers() const {
-    dds_subscription_matched_status_t status{};
-    static_cast<void>(dds_get_subscription_matched_status(reader_.get(), &status));
-    return status.current_count;
-  }
-
-  // "" unless a publisher of the topic offers less than we ask for.
-  [[nodiscard]] std::string incompatibility() const {
-    dds_requested_incompatible_qos_status_t status{};
-    static_cast<void>(dds_get_requested_incompatible_qos_status(reader_.get(), &status));
-    if (status.total_count == 0) return "";
-    return name_ + " has a publisher with incompatible QoS: " +
-           std::string(daemon::policy_name(status.last_policy_id));
-  }
-
- private:
-  std::string name_;
-  Entity topic_;
-  Entity reader_;
-};
-
 class Watch {
  public:
   Watch(const WatchOptions& options, std::FILE* out)
       : options_(options),
         out_(out),
-        data_came_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"),
+        data_came_(require_descriptor(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd")),
         participant_(options.dds),
         structure_(participant_, daemon::kPointCloud2Type, options.dds.structure_topic, kCloudDepth,
                    data_came_),
         points_(participant_, daemon::kPointCloud2Type, options.dds.points_topic, kCloudDepth,
                 data_came_),
         imu_(participant_, daemon::kImuType, options.dds.imu_topic, kSmallMessageDepth, data_came_),
+        health_(participant_, daemon::kHealthType, daemon::kHealthTopic, kSmallMessageDepth,
+                data_came_),
         status_(participant_, daemon::kScanStatusType, daemon::kStatusTopic, kSmallMessageDepth,
                 data_came_) {}
 
@@ -154,6 +60,7 @@ class Watch {
       report(counter_.finish(now - interval_start));
       interval_start = now;
     }
+    if (!options_.json && counter_.health()) print(health_block(*counter_.health()));
     return counter_.anything_came() ? 0 : 1;
   }
 
@@ -168,6 +75,15 @@ class Watch {
     return (ready[0].revents & POLLIN) != 0;
   }
 
+  [[nodiscard]] std::array<const Subscription*, 5> topics() const {
+    return {&structure_, &points_, &imu_, &health_, &status_};
+  }
+  [[nodiscard]] std::uint32_t publishers() const {
+    std::uint32_t count = 0;
+    for (const Subscription* topic : topics()) count += topic->publishers();
+    return count;
+  }
+
   void take_all() {
     using Cloud = sensor_msgs_msg_dds__PointCloud2_;
     structure_.take_all<Cloud>([this](const Cloud&) { counter_.add_structure(); });
@@ -175,20 +91,34 @@ class Watch {
     imu_.take_all<sensor_msgs_msg_dds__Imu_>([this](const auto&) { counter_.add_imu(); });
     status_.take_all<convexcut_msg_dds__ScanStatus_>(
         [this](const auto& status) { counter_.add_status(status); });
+    health_.take_all<convexcut_msg_dds__Health_>(
+        [this](const auto& health) { counter_.set_health(daemon::snapshot_of(health)); });
   }
 
   void report(const WatchInterval& interval) {
-    const std::uint32_t publishers =
-        structure_.publishers() + points_.publishers() + imu_.publishers() + status_.publishers();
-    say_what_is_wrong(publishers);
-    if (options_.json) {
-      print(watch_json(interval, publishers));
-    } else if (counter_.anything_came() || publishers > 0) {
-      const bool terminal = ::isatty(::fileno(out_)) != 0;
-      if (lines_ == 0 || (terminal && lines_ % kLinesAHeader == 0)) print(watch_header());
-      print(watch_line(interval));
-      ++lines_;
+    const std::uint32_t publisher_count = publishers();
+    if (publisher_count > 0) {
+      say_it_is_there();
+    } else {
+      say_it_is_not_there();
     }
+    if (options_.json) {
+      print(watch_json(interval, publisher_count));
+    } else if (publisher_count > 0 || interval.anything_came()) {
+      print_lines(interval);
+    }
+  }
+
+  void print_lines(const WatchInterval& interval) {
+    const bool terminal = ::isatty(::fileno(out_)) != 0;
+    const bool page = terminal && lines_ > 0 && lines_ % kLinesAHeader == 0;
+    if (interval.health && (page || states_.changed(*interval.health))) {
+      print(health_block(*interval.health));
+      header_due_ = true;
+    }
+    if (page || std::exchange(header_due_, false)) print(watch_header());
+    print(watch_line(interval));
+    ++lines_;
   }
 
   void print(const std::string& text) {
@@ -197,35 +127,57 @@ class Watch {
     }
   }
 
+  void say_it_is_there() {
+    if (seen_ && said_) say("convexcut on DDS domain " + domain() + " is back");
+    seen_ = true;
+    said_ = false;
+    lonely_ = std::chrono::seconds{0};
+  }
+
   // Once each time that the publishers are gone.
-  void say_what_is_wrong(std::uint32_t publishers) {
-    lonely_ = publishers > 0 ? std::chrono::seconds{0} : lonely_ + kInterval;
-    if (publishers > 0) said_ = false;
-    if (lonely_ < options_.patience || publishers > 0 || said_) return;
+  void say_it_is_not_there() {
+    lonely_ += kInterval;
+    if (said_ || (!seen_ && lonely_ < options_.patience)) return;
     said_ = true;
-    std::string message = "no convexcut on DDS domain " + std::to_string(participant_.domain()) +
+    if (seen_) {
+      if (!options_.json && counter_.health()) print(health_block(*counter_.health()));
+      counter_.forget_health();
+      return say("convexcut on DDS domain " + domain() +
+                 " went away: the daemon ended, or the network to it is interrupted; waiting for "
+                 "it to come back");
+    }
+    std::string message = "no convexcut on DDS domain " + domain() +
                           ": check that the daemon runs, its dds.domain and topic names, and that "
                           "the firewall lets DDS's UDP ports and multicast pass";
-    for (const Subscription* topic : {&structure_, &points_, &imu_, &status_}) {
+    for (const Subscription* topic : topics()) {
       const std::string found = topic->incompatibility();
       if (!found.empty()) message += "; " + found;
     }
-    static_cast<void>(std::fprintf(stderr, "%s\n", message.c_str()));
+    say(message);
   }
+
+  static void say(const std::string& line) {
+    static_cast<void>(std::fprintf(stderr, "%s\n", line.c_str()));
+  }
+  [[nodiscard]] std::string domain() const { return std::to_string(participant_.domain()); }
 
   WatchOptions options_;
   std::FILE* out_;
   StopSignal stop_;  // above participant_: the signals are blocked before DDS has threads
-  FileDescriptor data_came_;
+  live::FileDescriptor data_came_;
   daemon::Participant participant_;
   Subscription structure_;
   Subscription points_;
   Subscription imu_;
+  Subscription health_;
   Subscription status_;
   WatchCounter counter_;
+  HealthStates states_;
   unsigned lines_ = 0;
+  bool header_due_ = true;
   std::chrono::seconds lonely_{0};
-  bool said_ = false;
+  bool seen_ = false;  // a publisher, at some time
+  bool said_ = false;  // that there is none
 };
 
 }  // namespace

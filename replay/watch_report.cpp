@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <string_view>
 
-#include <system_error>
+#include "replay/health_report.hpp"
+#include "replay/text.hpp"
 
 namespace convexcut::replay {
 namespace {
@@ -16,19 +15,10 @@ double rate_hz(std::uint64_t count, Duration elapsed) {
   return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
 }
 
-double milliseconds(Duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
-}
-
 // A daemon that was restarted counts from zero again.
 std::uint64_t increase(std::uint64_t from, std::uint64_t to) { return to >= from ? to - from : to; }
 
-std::string fixed(double value, int decimals) {
-  std::array<char, 64> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::fixed, decimals);
-  return {text.data(), end.ec == std::errc{} ? end.ptr : text.data()};
-}
+std::string fixed(double value, int decimals) { return format("%.*f", decimals, value); }
 
 std::string right_aligned(const std::string& text, std::size_t width) {
   return std::string(width - std::min(width, text.size()), ' ') + text;
@@ -38,14 +28,15 @@ std::string right_aligned(const std::string& text, std::size_t width) {
 constexpr std::array<std::size_t, 11> kWidths{9, 7, 7, 6, 7, 6, 7, 7, 6, 7, 9};
 constexpr std::array<std::size_t, 3> kBarsBefore{3, 6, 9};
 
-std::string table_row(const std::array<std::string, kWidths.size()>& cells) {
+std::string table_row(const std::array<std::string, kWidths.size()>& cells,
+                      const std::string& state = "") {
   std::string row;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (std::count(kBarsBefore.begin(), kBarsBefore.end(), i) != 0) row += " |";
     if (i > 0) row += ' ';
     row += right_aligned(cells[i], kWidths[i]);
   }
-  return row + '\n';
+  return row + (state.empty() ? "" : " | " + state) + '\n';
 }
 
 }  // namespace
@@ -85,7 +76,8 @@ WatchInterval WatchCounter::finish(Duration elapsed) {
   interval.structure_hz = rate_hz(structure_, elapsed);
   interval.points_hz = rate_hz(points_, elapsed);
   interval.imu_hz = rate_hz(imu_, elapsed);
-  anything_came_ = anything_came_ || structure_ + points_ + imu_ + statuses_.size() > 0;
+  interval.health = health_;
+  anything_came_ = anything_came_ || health_ || structure_ + points_ + imu_ + statuses_.size() > 0;
   if (!statuses_.empty()) {
     interval.status = summarise();
     last_ = statuses_.back();
@@ -119,29 +111,28 @@ std::string watch_line(const WatchInterval& interval) {
     cells[9] = std::to_string(status.lost_packets);
     cells[10] = std::to_string(status.lost_imu_samples);
   }
-  return table_row(cells);
+  return table_row(cells, interval.health ? state_and_reasons(*interval.health) : "");
 }
 
 std::string watch_json(const WatchInterval& interval, std::uint32_t publishers) {
-  std::string json = "{\"publishers\":" + std::to_string(publishers);
-  const auto add = [&json](std::string_view key, const std::string& value) {
-    json.append(",\"").append(key).append("\":").append(value);
-  };
-  add("structure_hz", fixed(interval.structure_hz, 2));
-  add("points_hz", fixed(interval.points_hz, 2));
-  add("imu_hz", fixed(interval.imu_hz, 2));
+  JsonObject json;
+  json.add("publishers", std::uint64_t{publishers})
+      .add("structure_hz", interval.structure_hz, 2)
+      .add("points_hz", interval.points_hz, 2)
+      .add("imu_hz", interval.imu_hz, 2);
   if (interval.status) {
     const WatchInterval::Status& status = *interval.status;
-    add("points_per_scan", fixed(status.points_per_scan, 1));
-    add("structure_share", fixed(status.structure_share, 4));
-    add("coverage", fixed(status.coverage, 4));
-    add("latency_p50_ms", fixed(milliseconds(status.latency_p50), 3));
-    add("latency_max_ms", fixed(milliseconds(status.latency_max), 3));
-    add("late_scans", std::to_string(status.late_scans));
-    add("lost_packets", std::to_string(status.lost_packets));
-    add("lost_imu_samples", std::to_string(status.lost_imu_samples));
+    json.add("points_per_scan", status.points_per_scan, 1)
+        .add("structure_share", status.structure_share, 4)
+        .add("coverage", status.coverage, 4)
+        .add("latency_p50_ms", milliseconds(status.latency_p50), 3)
+        .add("latency_max_ms", milliseconds(status.latency_max), 3)
+        .add("late_scans", status.late_scans)
+        .add("lost_packets", status.lost_packets)
+        .add("lost_imu_samples", status.lost_imu_samples);
   }
-  return json + "}\n";
+  if (interval.health) json.add("health", health_json(*interval.health));
+  return json.text() + "\n";
 }
 
 }  // namespace convexcut::replay

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/time.hpp"
 #include "daemon/dds/ros2.h"
+#include "daemon/health/snapshot.hpp"
 
 namespace convexcut::replay {
 
@@ -32,6 +34,13 @@ struct WatchInterval {
     std::uint64_t lost_imu_samples = 0;
   };
   std::optional<Status> status;
+
+  // The newest that came, in this interval or before; absent until one does.
+  std::optional<daemon::HealthSnapshot> health;
+
+  [[nodiscard]] bool anything_came() const noexcept {
+    return structure_hz + points_hz + imu_hz > 0.0 || status || health;
+  }
 };
 
 class WatchCounter {
@@ -40,6 +49,13 @@ class WatchCounter {
   void add_points() noexcept { ++points_; }
   void add_imu() noexcept { ++imu_; }
   void add_status(const convexcut_msg_dds__ScanStatus_& status);
+
+  void set_health(daemon::HealthSnapshot health) { health_ = std::move(health); }
+  // The daemon is gone: what it said is no longer so.
+  void forget_health() noexcept { health_.reset(); }
+  [[nodiscard]] const std::optional<daemon::HealthSnapshot>& health() const noexcept {
+    return health_;
+  }
 
   [[nodiscard]] bool anything_came() const noexcept { return anything_came_; }
   // Ends the interval and starts the next.
@@ -55,6 +71,7 @@ class WatchCounter {
   std::vector<convexcut_msg_dds__ScanStatus_> statuses_;
   // The last of the interval before: totals are counted from it.
   std::optional<convexcut_msg_dds__ScanStatus_> last_;
+  std::optional<daemon::HealthSnapshot> health_;
 };
 
 [[nodiscard]] std::string watch_header();

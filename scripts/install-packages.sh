@@ -1,19 +1,21 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that are named as arguments' groups and missing here.
-#   scripts/install-packages.sh build|test …
+#   scripts/install-packages.sh build|test|vm …
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ca-certificates
-  libpcap-dev libeigen3-dev cyclonedds-dev cyclonedds-tools libtomlplusplus-dev libcli11-dev
+  libpcap-dev libeigen3-dev libhwy-dev cyclonedds-dev cyclonedds-tools libtomlplusplus-dev libcli11-dev
   libpng-dev libgtest-dev libgmock-dev libbenchmark-dev libboost-dev)
 check=(clang clang-format clang-tidy clang-tools libclang-rt-14-dev llvm python3 tshark git iproute2)
+vm=(mmdebstrap e2fsprogs kmod user-mode-linux)
 
 wanted=()
 for group in "$@"; do
   case "$group" in
     build) wanted+=("${build[@]}") ;;
     test) wanted+=("${build[@]}" "${check[@]}") ;;
-    *) echo "install-packages.sh: unknown group '$group': expected build or test" >&2; exit 2 ;;
+    vm) wanted+=("${vm[@]}") ;;
+    *) echo "install-packages.sh: unknown group '$group': expected build, test or vm" >&2; exit 2 ;;
   esac
 done
 

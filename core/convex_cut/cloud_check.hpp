@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/cloud.hpp"
+#include "core/convex_cut/cloud_kernels.hpp"
 #include "core/convex_cut/parameters.hpp"
 
 namespace convexcut {
@@ -16,19 +17,6 @@ struct CloudCheck {
   CutStatus status = CutStatus::ok;
   float extent_m = 0.0F;  // the greatest magnitude of any coordinate, when the status is ok
 };
-
-// The bit pattern of the greatest magnitude. The patterns of magnitudes are ordered as the
-// magnitudes are, with infinity and the NaNs above all numbers; unlike a float maximum, an integer
-// one loses no NaN.
-[[nodiscard]] inline std::uint32_t greatest_magnitude_bits(std::span<const float> values) noexcept {
-  constexpr std::uint32_t kWithoutSign = 0x7FFF'FFFF;
-  std::int32_t greatest = 0;
-  for (const float value : values) {
-    greatest = std::max(
-        greatest, static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(value) & kWithoutSign));
-  }
-  return static_cast<std::uint32_t>(greatest);
-}
 
 // Whether a cloud and its labels can be worked on at all.
 [[nodiscard]] inline CloudCheck check_cloud(const CloudView& cloud,

@@ -10,8 +10,8 @@ namespace convexcut {
 namespace {
 
 // Planes that a thread takes at once. Neighbouring planes share most of their points, which are
-// still in the thread's cache; more at once would leave the team idle at the end.
-constexpr std::uint32_t kPlanesAtOnce = 8;
+// marked then and still in the thread's cache; more at once would leave the team idle at the end.
+constexpr std::uint32_t kPlanesAtOnce = 30;
 
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 
@@ -31,7 +31,7 @@ ConvexCutEngine::ConvexCutEngine(const ConvexCutParameters& parameters, std::siz
                                  unsigned threads)
     : parameters_(checked(parameters)),
       index_(parameters.half_width_m, checked(max_points)),
-      structure_(max_points),
+      max_points_(max_points),
       team_(threads) {
   planes_.reserve(parameters.planes);
   windows_.reserve(parameters.planes);
@@ -51,23 +51,28 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
   if (check.status != CutStatus::ok) return check.status;
 
   index_.build(cloud);
-  std::fill_n(structure_.begin(), cloud.size(), std::uint8_t{0});
   next_plane_.store(0, std::memory_order_relaxed);  // published by the team
   auto work = [&](unsigned member) noexcept {
-    process_slices(*workers_[member], check.extent_m, cloud.size(), plane_stride);
+    workers_[member]->begin(index_, check.extent_m);
+    process_slices(*workers_[member], plane_stride);
   };
   team_.run(work);
 
   const std::span<const std::uint32_t> source = index_.source();
+  const std::span<std::uint8_t> marks = workers_.front()->marks();
+  for (std::size_t member = 1; member < workers_.size(); ++member) {
+    const std::span<const std::uint8_t> others = workers_[member]->marks();
+    for (std::size_t i = 0; i < source.size(); ++i) {
+      marks[i] = static_cast<std::uint8_t>(marks[i] | others[i]);
+    }
+  }
   for (std::size_t i = 0; i < source.size(); ++i) {
-    labels[source[i]] = structure_[i] != 0 ? Label::structure : Label::other;
+    labels[source[i]] = static_cast<Label>(marks[i]);
   }
   return CutStatus::ok;
 }
 
-void ConvexCutEngine::process_slices(SliceWorker& worker, float extent_m, std::size_t points,
-                                     std::uint32_t plane_stride) noexcept {
-  const std::span<std::uint8_t> structure = std::span(structure_).first(points);
+void ConvexCutEngine::process_slices(SliceWorker& worker, std::uint32_t plane_stride) noexcept {
   const auto end = (static_cast<std::uint32_t>(planes_.size()) + plane_stride - 1) / plane_stride;
   // Relaxed: the counter only deals the planes out. Which thread takes one does not matter: the
   // labels are a union.
@@ -75,7 +80,7 @@ void ConvexCutEngine::process_slices(SliceWorker& worker, float extent_m, std::s
        begin < end; begin = next_plane_.fetch_add(kPlanesAtOnce, std::memory_order_relaxed)) {
     for (std::uint32_t i = begin; i < std::min(begin + kPlanesAtOnce, end); ++i) {
       const std::size_t plane = std::size_t{i} * plane_stride;
-      worker.process(index_, planes_[plane], windows_[plane], extent_m, structure);
+      worker.process(planes_[plane], windows_[plane]);
     }
   }
 }

@@ -23,7 +23,7 @@ namespace convexcut {
 
 class ConvexCutEngine {
  public:
-  // Allocates everything it will ever need: about 20 bytes a point and 70 more for every thread.
+  // Allocates everything it will ever need: about 20 bytes a point and 95 more for every thread.
   // threads: that work on a cloud, with the calling one (0 counts as 1). Throws
   // std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹,
   // std::bad_alloc, and std::system_error when a thread cannot be started.
@@ -37,17 +37,16 @@ class ConvexCutEngine {
                                 std::uint32_t plane_stride = 1) noexcept;
 
   [[nodiscard]] const ConvexCutParameters& parameters() const noexcept { return parameters_; }
-  [[nodiscard]] std::size_t max_points() const noexcept { return structure_.size(); }
+  [[nodiscard]] std::size_t max_points() const noexcept { return max_points_; }
 
  private:
-  void process_slices(SliceWorker& worker, float extent_m, std::size_t points,
-                      std::uint32_t plane_stride) noexcept;
+  void process_slices(SliceWorker& worker, std::uint32_t plane_stride) noexcept;
 
   ConvexCutParameters parameters_;
   std::vector<SlicingPlane> planes_;
   std::vector<ShellIndex::Windows> windows_;  // of each plane
   ShellIndex index_;
-  Workspace<std::uint8_t> structure_;  // by position in the index
+  std::size_t max_points_;
   std::vector<std::unique_ptr<SliceWorker>> workers_;
   std::atomic<std::uint32_t> next_plane_{0};  // of the cloud at hand
   WorkerTeam team_;

@@ -2,11 +2,16 @@
 #include "core/convex_cut/shell_index.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+
+#include "core/convex_cut/cloud_kernels.hpp"
+#include "core/convex_cut/direction.hpp"
 
 namespace convexcut {
 namespace {
+
+// Readers may load whole vectors at the end of a column.
+constexpr std::size_t kPadding = 64;
 
 constexpr std::size_t kKeys = ShellIndex::kShells * ShellIndex::kBuckets;
 static_assert(kKeys <= 0x1'0000, "a key is 16 bits wide");
@@ -16,75 +21,56 @@ static_assert(kKeys <= 0x1'0000, "a key is 16 bits wide");
 constexpr double kTurnSlack = 1e-4;
 constexpr double kRadiusSlack = 1e-5;
 
-// A number that grows with the direction of (x, y) modulo 180°, from 0 (along x) over 1 (45°) and
-// 2 (along y) to 4 (180°, which is 0 again). Within an eighth of a turn it is a polynomial in the
-// tangent, close to the angle; it need not be the angle, for both points and windows use it.
-template <class Real>
-[[nodiscard]] Real turn_modulo_half(Real x, Real y) noexcept {
-  constexpr Real kBend = static_cast<Real>(0.3476);
-  const Real along = y < 0 ? -x : x;
-  const Real width = std::abs(x);
-  const Real height = std::abs(y);
-  const Real longer = width > height ? width : height;
-  const Real shorter = width > height ? height : width;
-  // The tiny term gives the point on the axis some direction, and no other one a different one.
-  const Real tangent = shorter / (longer + static_cast<Real>(1e-30));
-  const Real eighth = tangent * (1 + kBend * (1 - tangent));
-  const Real quarter = width > height ? eighth : 2 - eighth;
-  return along < 0 ? 4 - quarter : quarter;
-}
-
-constexpr float kBucketsPerTurnUnit = static_cast<float>(ShellIndex::kBuckets) / 4.0F;
-
-[[nodiscard]] std::uint16_t key_of(float x, float y, float inverse_squared_half_width) noexcept {
-  constexpr std::int32_t kExponentShift = 23;
-  constexpr std::int32_t kExponentBias = 127;
-  constexpr std::int32_t kLastShell = ShellIndex::kShells - 1;
-  constexpr std::int32_t kLastBucket = ShellIndex::kBuckets - 1;
-  // (r/d)² in [2ˢ, 2ˢ⁺¹) has the exponent s.
-  const float ratio = (x * x + y * y) * inverse_squared_half_width;
-  const std::int32_t exponent =
-      (std::bit_cast<std::int32_t>(ratio) >> kExponentShift) - kExponentBias;
-  const std::int32_t shell = std::clamp(exponent, 0, kLastShell);
-  const std::int32_t bucket = std::min(
-      static_cast<std::int32_t>(turn_modulo_half(x, y) * kBucketsPerTurnUnit), kLastBucket);
-  return static_cast<std::uint16_t>(shell * static_cast<std::int32_t>(ShellIndex::kBuckets) +
-                                    bucket);
-}
-
 }  // namespace
 
 ShellIndex::ShellIndex(double half_width_m, std::size_t max_points)
     : inverse_squared_half_width_(static_cast<float>(1.0 / (half_width_m * half_width_m))),
-      x_(max_points),
-      y_(max_points),
-      z_(max_points),
+      x_(max_points + kPadding),
+      y_(max_points + kPadding),
+      z_(max_points + kPadding),
       source_(max_points),
-      keys_(max_points),
+      keys_(max_points + kPadding),
+      first_half_starts_(kKeys),
       starts_(kKeys + 1) {}
 
+// A counting sort of two halves at once: points that follow each other often have the same key, and
+// would wait for each other's count.
 void ShellIndex::build(const CloudView& cloud) noexcept {
   size_ = cloud.size();
-  for (std::size_t i = 0; i < size_; ++i) {
-    keys_[i] = key_of(cloud.x[i], cloud.y[i], inverse_squared_half_width_);
-  }
-  // Counting sort. starts_[k + 1] first counts key k, then is where it begins, and once all its
-  // points are placed, where key k + 1 begins: no second table is needed.
+  shell_keys(cloud, 0, size_, inverse_squared_half_width_, keys_.data());
+  std::ranges::fill(first_half_starts_, 0U);
   std::ranges::fill(starts_, 0U);
-  for (std::size_t i = 0; i < size_; ++i) ++starts_[keys_[i] + 1U];
-  std::uint32_t begin = 0;
-  for (std::size_t k = 1; k <= kKeys; ++k) {
-    const std::uint32_t count = starts_[k];
-    starts_[k] = begin;
-    begin += count;
+  std::uint32_t* const first = first_half_starts_.data();
+  // Of the second half, one place further on: where a key's points end, the next one's begin.
+  std::uint32_t* const second = starts_.data() + 1;
+  const std::size_t half = size_ / 2;
+  const std::uint16_t* const keys = keys_.data();
+  for (std::size_t i = 0; i < half; ++i) {
+    ++first[keys[i]];
+    ++second[keys[half + i]];
   }
-  for (std::size_t i = 0; i < size_; ++i) {
-    const std::size_t position = starts_[keys_[i] + 1U]++;
+  if (2 * half < size_) ++second[keys[size_ - 1]];
+
+  std::uint32_t begin = 0;
+  for (std::size_t k = 0; k < kKeys; ++k) {
+    const std::uint32_t in_first = first[k];
+    const std::uint32_t in_second = second[k];
+    first[k] = begin;
+    second[k] = begin + in_first;
+    begin += in_first + in_second;
+  }
+
+  const auto place = [&](std::size_t i, std::uint32_t position) noexcept {
     x_[position] = cloud.x[i];
     y_[position] = cloud.y[i];
     z_[position] = cloud.z[i];
     source_[position] = static_cast<std::uint32_t>(i);
+  };
+  for (std::size_t i = 0; i < half; ++i) {
+    place(i, first[keys[i]]++);
+    place(half + i, second[keys[half + i]]++);
   }
+  if (2 * half < size_) place(size_ - 1, second[keys[size_ - 1]]++);
 }
 
 ShellIndex::Windows ShellIndex::windows(const SlicingPlane& plane) noexcept {
@@ -96,10 +82,10 @@ ShellIndex::Windows ShellIndex::windows(const SlicingPlane& plane) noexcept {
     const double sine = std::exp2(-0.5 * static_cast<double>(shell)) * (1.0 + kRadiusSlack);
     const double cosine = std::sqrt(1.0 - sine * sine);
     // The plane's direction turned by ∓asin(d/r).
-    const double from = turn_modulo_half(plane.cos_theta * cosine + plane.sin_theta * sine,
-                                         plane.sin_theta * cosine - plane.cos_theta * sine);
-    double to = turn_modulo_half(plane.cos_theta * cosine - plane.sin_theta * sine,
-                                 plane.sin_theta * cosine + plane.cos_theta * sine);
+    const double from = direction_modulo_half(plane.cos_theta * cosine + plane.sin_theta * sine,
+                                              plane.sin_theta * cosine - plane.cos_theta * sine);
+    double to = direction_modulo_half(plane.cos_theta * cosine - plane.sin_theta * sine,
+                                      plane.sin_theta * cosine + plane.cos_theta * sine);
     if (to < from) to += 4.0;
     const auto first = static_cast<std::int64_t>(std::floor((from - kTurnSlack) * kBucketsPerUnit));
     const auto last = static_cast<std::int64_t>(std::floor((to + kTurnSlack) * kBucketsPerUnit));

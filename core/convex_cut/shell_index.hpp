@@ -75,7 +75,8 @@ class ShellIndex {
   std::size_t size_ = 0;
   Workspace<float> x_, y_, z_;
   Workspace<std::uint32_t> source_;
-  Workspace<std::uint16_t> keys_;      // shell · kBuckets + bucket, in the cloud's order
+  Workspace<std::uint16_t> keys_;  // shell · kBuckets + bucket, in the cloud's order
+  std::vector<std::uint32_t> first_half_starts_;
   std::vector<std::uint32_t> starts_;  // of each key in the sorted points, and the end
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The loops over all points of a slice, in the form that compilers vectorise: arrays of float, no
-// branches. Only gather() decides anything, with the reference's expression; the others are
-// estimates whose error their callers allow for. RT: no allocation, no lock, no system call.
+// The loops over all points of a slice, written once and compiled for every instruction set
+// (Highway, chosen when first called). They work on estimates in float whose error is bounded, and
+// leave to their callers, or to the reference's own expression, what the estimates cannot decide:
+// no instruction set labels a point differently. RT: no allocation, no lock, no system call.
 #pragma once
 
 #include <array>
@@ -11,44 +12,71 @@
 #include <span>
 
 #include "core/cloud.hpp"
+#include "core/convex_cut/convex_hull.hpp"
 #include "core/convex_cut/shell_index.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
 
 namespace convexcut {
 
-// The kernels work on blocks of this many points and may read and write the rest of the last block:
-// the columns of a slice have room for it.
-inline constexpr std::size_t kKernelBlock = 32;
+// The kernels load and store whole vectors: every column, and the columns of the sorted points,
+// can be read and written this many elements past their end.
+inline constexpr std::size_t kKernelPadding = 64;
+
+// In a member's position: another slice has made this point structure already.
+inline constexpr std::uint32_t kMarked = 0x8000'0000;
 
 // Points of one slice; the columns have the same capacity.
 struct SliceColumns {
   float* u;                 // metres, along the plane
   float* z;                 // metres, up
-  std::uint32_t* position;  // in the sorted points
+  std::uint32_t* position;  // in the sorted points, with kMarked
 };
 
-// Appends the points of `range` with |v| < half_width_m; returns the new number of members.
-[[nodiscard]] std::size_t gather(const CloudView& sorted, ShellIndex::Range range,
-                                 const SlicingPlane& plane, double half_width_m,
-                                 const SliceColumns& members, std::size_t count) noexcept;
+// Writes the points of `ranges` with |v| < half_width_m, in the ranges' order, and returns how many
+// these are. `marks`: a byte a sorted point, 1 where it is structure already. extent_m: the
+// greatest magnitude of a coordinate. u has an error below 4.3·2⁻²⁴·extent.
+[[nodiscard]] std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
+                                 std::span<const ShellIndex::Range> ranges,
+                                 const SlicingPlane& plane, double half_width_m, float extent_m,
+                                 const SliceColumns& members) noexcept;
 
-// Indices of members that are (nearly, to 2⁻¹² of their value) outermost in sixteen directions.
-// Some may be equal. Needs 0 < count.
+// Indices of members that are (nearly, to 2⁻¹² of their value) outermost in sixteen directions,
+// counter-clockwise from +u. Some may be equal. Needs 0 < count < 2³¹. The fine directions lie
+// between the coarse ones.
 inline constexpr std::size_t kExtremes = 16;
-[[nodiscard]] std::array<std::size_t, kExtremes> extremes(const SliceColumns& members,
-                                                          std::size_t count) noexcept;
+using Extremes = std::array<std::uint32_t, kExtremes>;
+enum class Directions : std::uint8_t { coarse, fine };
+[[nodiscard]] Extremes extremes(const SliceColumns& members, std::size_t count,
+                                Directions directions) noexcept;
 
-// Lines n·p = offset with unit normals n, each bounding the half-plane n·p ≥ offset.
+// Lines n·p = offset with unit normals n, each bounding the half-plane n·p ≥ offset. A point's
+// depth is its distance from the nearest line, negative outside of any half-plane. For the edges of
+// a convex polygon and a point inside, that is the distance from the polygon's boundary.
 struct EdgeColumns {
   float* normal_u;
   float* normal_z;
   float* offset;  // metres
+  std::size_t count = 0;
 };
 
-// depth[i] = how far point i lies within all half-planes: its distance from the nearest line,
-// negative outside. For the edges of a convex polygon and a point inside, that is the distance from
-// the polygon's boundary. Metres; needs at least one edge.
-void depth_within(const EdgeColumns& edges, std::size_t edge_count, const SliceColumns& points,
-                  std::size_t count, float* depth) noexcept;
+// The edges of a counter-clockwise convex polygon of at least three vertices into `edges`, whose
+// columns have kKernelPadding elements to spare: rounded once from double.
+void set_edges(std::span<const HullPoint> polygon, EdgeColumns& edges) noexcept;
+
+// Writes depth[i] of every member, copies those that are at most limit_m deep to `shallow`, without
+// kMarked, and returns how many these are. `shallow` may be `members`.
+[[nodiscard]] std::size_t depths(const EdgeColumns& edges, const SliceColumns& members,
+                                 std::size_t count, float limit_m, float* depth,
+                                 const SliceColumns& shallow) noexcept;
+
+// Drops the members that are deeper than limit_m or marked; how many are left, in the same order.
+[[nodiscard]] std::size_t drop_deep(const float* depth, float limit_m, const SliceColumns& members,
+                                    std::size_t count) noexcept;
+
+// Sets marks[position] for the members that are less than e − tolerance deep, drops all but those
+// within the tolerance of e, takes kMarked from their positions, and returns how many these are.
+[[nodiscard]] std::size_t mark_near(const EdgeColumns& edges, const SliceColumns& members,
+                                    std::size_t count, float e_m, float tolerance_m,
+                                    std::span<std::uint8_t> marks) noexcept;
 
 }  // namespace convexcut

@@ -11,10 +11,10 @@
 //  - a point that another slice made structure needs no decision, only its part in the hull.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/convex_cut/convex_hull.hpp"
 #include "core/convex_cut/parameters.hpp"
@@ -27,45 +27,62 @@ namespace convexcut {
 
 class SliceWorker {
  public:
-  // Allocates 64 bytes a point: a slice can hold the whole cloud, and all of it be hull.
+  // Allocates 95 bytes a point: a slice can hold the whole cloud, and all of it be hull.
   SliceWorker(const ConvexCutParameters& parameters, std::size_t max_points);
 
-  // Sets structure[position] = 1 for the members of the plane's slice that are structure. Several
-  // workers may work on one index and one `structure` at the same time. extent_m: the greatest
-  // magnitude of a coordinate. RT: no allocation, no lock, no system call.
-  void process(const ShellIndex& index, const SlicingPlane& plane,
-               const ShellIndex::Windows& windows, float extent_m,
-               std::span<std::uint8_t> structure) noexcept;
+  // Before the first slice of a cloud. extent_m: the greatest magnitude of a coordinate.
+  void begin(const ShellIndex& index, float extent_m) noexcept;
+
+  // Finds the members of the plane's slice that are structure. The planes of a cloud may come in
+  // any order; neighbours after each other are quickest. RT: no allocation, no lock, no system
+  // call.
+  void process(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept;
+
+  // By position in the index: 1 where a slice since begin() made the point structure.
+  [[nodiscard]] std::span<std::uint8_t> marks() noexcept { return marks_; }
 
  private:
-  using Hull = std::span<const SlicePoint>;
+  using Hull = std::span<const HullPoint>;
+  // A closed chain of members. A point that is left of all its edges is in the hull: the chain
+  // winds about it, convex or not.
+  using Polygon = std::span<const HullPoint>;
 
-  void cut(const ShellIndex& index, const SlicingPlane& plane,
-           const ShellIndex::Windows& windows) noexcept;
-  [[nodiscard]] Hull inscribed_polygon(const CloudView& sorted, const SlicingPlane& plane) noexcept;
-  [[nodiscard]] Hull any_triangle(const CloudView& sorted, const SlicingPlane& plane) noexcept;
-  [[nodiscard]] std::size_t select(const CloudView& sorted, const SlicingPlane& plane,
-                                   std::span<std::uint8_t> structure) noexcept;
-  void keep(const CloudView& sorted, const SlicingPlane& plane, Hull hull,
-            std::span<std::uint8_t> structure) noexcept;
-  void set_edges(Hull polygon) noexcept;
+  void cut(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept;
+  [[nodiscard]] Hull hull_of_members(const SlicingPlane& plane) noexcept;
+  [[nodiscard]] Polygon outermost_polygon(const SlicingPlane& plane) noexcept;
+  [[nodiscard]] Polygon refined_polygon(const SlicingPlane& plane, std::size_t shallow) noexcept;
+  [[nodiscard]] Polygon any_triangle(const SlicingPlane& plane) noexcept;
+  [[nodiscard]] Polygon without_dents(std::size_t size) noexcept;
+  [[nodiscard]] Hull exact_hull(const SlicingPlane& plane, std::size_t count) noexcept;
+  void keep(const SlicingPlane& plane, Hull hull) noexcept;
+  [[nodiscard]] HullPoint exact_point(const SlicingPlane& plane,
+                                      std::uint32_t position) const noexcept;
 
   [[nodiscard]] SliceColumns members() noexcept { return {u_.data(), z_.data(), position_.data()}; }
-  [[nodiscard]] EdgeColumns edges() noexcept {
-    return {normal_u_.data(), normal_z_.data(), edge_offset_.data()};
+  [[nodiscard]] SliceColumns shallow() noexcept {
+    return {shallow_u_.data(), shallow_z_.data(), shallow_position_.data()};
   }
 
   double half_width_m_;
   double hull_distance_m_;
-  float tolerance_m_ = 0.0F;  // of depths, for the cloud at hand
 
-  std::size_t count_ = 0;  // members; after select() those that are still to be decided
+  const ShellIndex* index_ = nullptr;  // of the cloud at hand
+  float extent_m_ = 0.0F;
+  float tolerance_m_ = 0.0F;  // of depths
+
+  std::size_t count_ = 0;  // members; for keep() reduced to those that are still to be decided
   Workspace<float> u_, z_, depth_;
   Workspace<std::uint32_t> position_;
-  Workspace<std::uint32_t> candidate_position_;
-  Workspace<SlicePoint> candidates_;  // for vertices of the hull
-  Workspace<SlicePoint> vertices_;
+  // Members that may be vertices of the hull.
+  Workspace<float> shallow_u_, shallow_z_, shallow_depth_;
+  Workspace<std::uint32_t> shallow_position_;
+  Workspace<HullPoint> candidates_;
+  Workspace<HullPoint> vertices_;
+  std::array<HullPoint, 2 * kExtremes> outermost_{};
+  std::array<HullPoint, 2 * kExtremes> corners_{};
   Workspace<float> normal_u_, normal_z_, edge_offset_;
+  EdgeColumns edges_;
+  Workspace<std::uint8_t> marks_;
 };
 
 }  // namespace convexcut

@@ -100,23 +100,32 @@ void reserve(LevelledScan& scan, std::size_t max_points) {
   scan.label.reserve(max_points);
 }
 
-void level(const Scan& scan, HostTime stamp, const OrientationTrack& orientations,
-           const Quaternion& q_imu_from_lidar, LevelledScan& levelled,
-           std::size_t firing_stride) noexcept {
+void level(const Scan& scan, HostTime stamp, LidarOrientationAt q_level_from_lidar,
+           LevelledScan& levelled, std::size_t firing_stride) noexcept {
   copy_header(scan, stamp, levelled);
   Writer points(scan, levelled);
   for (std::size_t i = 0; i < scan.firings.size(); i += firing_stride) {
     const ScanFiring& firing = scan.firings[i];
     if (firing.return_count == 0) continue;
-    const Orientation orientation = orientations.at(stamp + (firing.time - scan.first_firing));
-    if (orientation.quality == OrientationQuality::missing) {
+    const auto rotation = q_level_from_lidar(stamp + (firing.time - scan.first_firing));
+    if (!rotation) {
       levelled.dropped_no_orientation += firing.return_count;
       continue;
     }
-    points.write(firing.first_return, firing.return_count,
-                 to_matrix(orientation.q_level_from_imu * q_imu_from_lidar));
+    points.write(firing.first_return, firing.return_count, to_matrix(*rotation));
   }
   points.finish();
+}
+
+void level(const Scan& scan, HostTime stamp, const OrientationTrack& orientations,
+           const Quaternion& q_imu_from_lidar, LevelledScan& levelled,
+           std::size_t firing_stride) noexcept {
+  const auto q_level_from_lidar = [&](HostTime time) -> std::optional<Quaternion> {
+    const Orientation q_level_from_imu = orientations.at(time);
+    if (q_level_from_imu.quality == OrientationQuality::missing) return std::nullopt;
+    return q_level_from_imu.rotation * q_imu_from_lidar;
+  };
+  level(scan, stamp, q_level_from_lidar, levelled, firing_stride);
 }
 
 void level(const Scan& scan, HostTime stamp, const Quaternion& q_level_from_lidar,

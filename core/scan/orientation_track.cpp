@@ -13,8 +13,8 @@ OrientationTrack::OrientationTrack(std::size_t capacity, Duration max_age)
   if (max_age < Duration::zero()) throw std::invalid_argument("max_age must not be negative");
 }
 
-bool OrientationTrack::push(HostTime time, const Quaternion& q_level_from_imu) noexcept {
-  const double norm = q_level_from_imu.norm();
+bool OrientationTrack::push(HostTime time, const Quaternion& rotation) noexcept {
+  const double norm = rotation.norm();
   constexpr double kNoLength = 1e-6;
   // Written so that a norm that is not a number is refused too.
   const bool usable = norm > kNoLength && std::isfinite(norm);
@@ -26,7 +26,7 @@ bool OrientationTrack::push(HostTime time, const Quaternion& q_level_from_imu) n
   if (size() == samples_.size()) ++begin_;
   Sample& slot = samples_[end_ % samples_.size()];
   slot.time = time;
-  slot.q_level_from_imu.coeffs() = q_level_from_imu.coeffs() / norm;
+  slot.rotation.coeffs() = rotation.coeffs() / norm;
   ++end_;
   return true;
 }
@@ -36,17 +36,16 @@ Orientation OrientationTrack::at(HostTime time) const noexcept {
   const std::uint64_t number = last_not_after(time);
   const Sample& before = sample(number);
   const Duration age = time - before.time;
-  if (age == Duration::zero()) return {before.q_level_from_imu, OrientationQuality::interpolated};
+  if (age == Duration::zero()) return {before.rotation, OrientationQuality::interpolated};
   if (number + 1 < end_) {
     const Sample& after = sample(number + 1);
     const Duration gap = after.time - before.time;
     if (gap <= max_age_) {
       const double share = static_cast<double>(age.count()) / static_cast<double>(gap.count());
-      return {before.q_level_from_imu.slerp(share, after.q_level_from_imu),
-              OrientationQuality::interpolated};
+      return {before.rotation.slerp(share, after.rotation), OrientationQuality::interpolated};
     }
   }
-  if (age <= max_age_) return {before.q_level_from_imu, OrientationQuality::held};
+  if (age <= max_age_) return {before.rotation, OrientationQuality::held};
   return {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The recent orientations of the IMU, to be asked for the orientation at any instant of them.
+// Recent orientations, to be asked for the orientation at any instant of them: rotations imu →
+// level of an IMU, lidar → base of a turning stage.
 #pragma once
 
 #include <chrono>
@@ -21,7 +22,7 @@ enum class OrientationQuality : std::uint8_t {
 };
 
 struct Orientation {
-  Quaternion q_level_from_imu = Quaternion::Identity();
+  Quaternion rotation = Quaternion::Identity();
   OrientationQuality quality = OrientationQuality::missing;
 };
 
@@ -37,7 +38,7 @@ class OrientationTrack {
 
   // Refuses, and counts, what is not newer than newest(), not finite or of no length. When the
   // host's clock has been set back (ClockState::steps), clear() first.
-  bool push(HostTime time, const Quaternion& q_level_from_imu) noexcept;
+  bool push(HostTime time, const Quaternion& rotation) noexcept;
 
   // Along the shortest rotation between the neighbours (slerp).
   [[nodiscard]] Orientation at(HostTime time) const noexcept;
@@ -52,7 +53,7 @@ class OrientationTrack {
  private:
   struct Sample {
     HostTime time;
-    Quaternion q_level_from_imu;
+    Quaternion rotation;
   };
 
   // Samples are numbered from 0 as they come; those of [begin_, end_) are held.

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <exception>
 
+#include "config/choices.hpp"
 #include "config/loader.hpp"
+#include "core/simd/simd_path.hpp"
 
 namespace convexcut::command_line {
 namespace {
@@ -20,6 +22,16 @@ int fail(const std::string& who, const std::string& what, int status) {
   return status;
 }
 
+// The kernels of the whole program run with it from here on.
+void choose_simd_path(config::SimdPath path) {
+  const std::string_view name = config::kNames<config::SimdPath>[static_cast<std::size_t>(path)];
+  if (use_simd_path(name)) return;
+  std::string expected = "auto";
+  for (const std::string_view available : simd_paths()) expected.append(", ").append(available);
+  throw UsageError("convex_cut.simd: this processor or build has no " + std::string(name) +
+                   ": expected one of " + expected);
+}
+
 }  // namespace
 
 void ConfigArguments::add_to(CLI::App& app) {
@@ -30,7 +42,11 @@ void ConfigArguments::add_to(CLI::App& app) {
       ->allow_extra_args(false);
 }
 
-config::Config ConfigArguments::load() const { return config::load(file, overrides); }
+config::Config ConfigArguments::load() const {
+  config::Config config = config::load(file, overrides);
+  choose_simd_path(config.convex_cut.simd);
+  return config;
+}
 
 void RecordingArguments::add_to(CLI::App& app, bool lidar_required) {
   app.add_option("--lidar", paths.lidar, "Lidar packets: pcap or pcapng")

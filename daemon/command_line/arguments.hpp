@@ -26,7 +26,8 @@ struct ConfigArguments {
   std::vector<std::string> overrides;
 
   void add_to(CLI::App& app);
-  // Throws config::ConfigError.
+  // And lets the program compute with the instruction set that is asked for. Throws
+  // config::ConfigError, and UsageError when the processor has none such.
   [[nodiscard]] config::Config load() const;
 };
 

@@ -24,6 +24,12 @@ inline const Ros2Type kPointCloud2Type{
 inline const Ros2Type kImuType{
     &sensor_msgs_msg_dds__Imu__desc,
     "RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b"};
+inline const Ros2Type kDiagnosticArrayType{
+    &diagnostic_msgs_msg_dds__DiagnosticArray__desc,
+    "RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"};
+inline const Ros2Type kHealthType{
+    &convexcut_msg_dds__Health__desc,
+    "RIHS01_0eb34029d70c489980955e1bf6e9b42a22233ca4cb4aa069d36af192dbdfac1d"};
 inline const Ros2Type kScanStatusType{
     &convexcut_msg_dds__ScanStatus__desc,
     "RIHS01_9b616e74a4e3f41811b9c0a005d6a473b82ba7c2420566713fc4c3e0f627d05a"};

@@ -6,8 +6,11 @@
 
 namespace convexcut::daemon {
 
-// Of the scan status. The other topics' names are in the configuration.
+// Of what the daemon says of itself; the last is ROS's own name for it. The other topics' names are
+// in the configuration.
 inline constexpr std::string_view kStatusTopic = "convexcut/status";
+inline constexpr std::string_view kHealthTopic = "convexcut/health";
+inline constexpr std::string_view kDiagnosticsTopic = "diagnostics";
 
 // The DDS topic of a ROS 2 topic: "points" and "/points" are rt/points. DdsError unless the name is
 // tokens of [A-Za-z0-9_], none starting with a digit, separated by '/' (ROS 2's rule).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "core/encoder_sample.hpp"
 #include "core/imu_sample.hpp"
 #include "core/return_batch.hpp"
 #include "core/ring/ring_sink.hpp"
@@ -40,17 +41,21 @@ struct InputRings {
   static constexpr std::size_t kLidarSlots = 2048;
   // 2.5 s at 400 Hz.
   static constexpr std::size_t kImuSlots = 1024;
+  // 1 s of a stage that sends every millisecond.
+  static constexpr std::size_t kEncoderSlots = 1024;
 
   SpscRing<ReturnBatch> lidar{kLidarSlots};
   SpscRing<ImuSample> imu{kImuSlots};
   SpscRing<ImuSample> imu_publish{kImuSlots};
   WakeUp imu_publish_filled;
+  SpscRing<EncoderSample> encoder{kEncoderSlots};
   // The producing ends, for the drivers.
   RingSink<ReturnBatch> returns{lidar};
   ImuTee samples{imu, imu_publish, imu_publish_filled};
+  RingSink<EncoderSample> angles{encoder};
 
   [[nodiscard]] std::uint64_t overruns() const noexcept {
-    return lidar.overruns() + imu.overruns() + imu_publish.overruns();
+    return lidar.overruns() + imu.overruns() + imu_publish.overruns() + encoder.overruns();
   }
 };
 

@@ -43,7 +43,8 @@ class Inputs {
   [[nodiscard]] virtual std::vector<InputThread> start() = 0;
   [[nodiscard]] virtual Clock& clock() noexcept = 0;
 
-  // Set when nothing more will come, after the last commit to a ring: never while live.
+  // Set when nothing more will come, after the last commit to a ring: never while live. Angles of a
+  // stage end with the IMU's samples.
   [[nodiscard]] const std::atomic<bool>& lidar_ended() const noexcept { return lidar_ended_; }
   [[nodiscard]] const std::atomic<bool>& imu_ended() const noexcept { return imu_ended_; }
 

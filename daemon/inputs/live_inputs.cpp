@@ -17,7 +17,7 @@ constexpr Duration kLongestWait = std::chrono::milliseconds{50};
 
 LiveInputs::LiveInputs(const config::Config& config, InputRings& rings,
                        const std::atomic<bool>& stop)
-    : stop_(stop), clock_(stop), sources_(config, rings.returns, rings.samples) {}
+    : stop_(stop), clock_(stop), sources_(config, rings.returns, rings.samples, rings.angles) {}
 
 std::vector<InputThread> LiveInputs::start() {
   std::vector<InputThread> threads;
@@ -41,6 +41,9 @@ InputTotals LiveInputs::totals() const noexcept {
   if (const auto* imu = sources_.imu_driver()) {
     totals.imu_samples = imu->counters().samples.value();
     totals.lost_imu_samples = imu->counters().lost_messages.value();
+  } else if (const auto* bus = sources_.bus()) {
+    totals.imu_samples = bus->imu().counters().samples.value();
+    totals.lost_imu_samples = bus->imu().counters().lost_groups.value();
   }
   return totals;
 }

@@ -17,7 +17,7 @@ RecordedInputs::RecordedInputs(const RecordingPaths& paths, const config::Config
       rings_(rings),
       stop_(stop),
       clock_(rate, stop),
-      recordings_(paths, config, rings.returns, rings.samples) {}
+      recordings_(paths, config, rings.returns, rings.samples, rings.angles) {}
 
 std::vector<InputThread> RecordedInputs::start() {
   clock_.start(recordings_.first_stamp());
@@ -27,9 +27,12 @@ std::vector<InputThread> RecordedInputs::start() {
   threads.push_back({"play_lidar", ThreadRole::other,
                      [this, lidar = streams.front()] { play(*lidar, &lidar_ended_); }});
   if (streams.size() == 1) imu_ended_.store(true, std::memory_order_release);
-  // The first of the others is what orientation is taken from; a second is decoded only.
+  // The first of the others is what orientation is taken from. A second is decoded only, unless it
+  // has the angles of a stage: then it decides when orientations end.
+  const bool has_angles = recordings_.can() != nullptr && recordings_.can()->encoder() != nullptr;
+  const std::size_t decisive = has_angles ? streams.size() - 1 : 1;
   for (std::size_t i = 1; i < streams.size(); ++i) {
-    std::atomic<bool>* ended = i == 1 ? &imu_ended_ : nullptr;
+    std::atomic<bool>* ended = i == decisive ? &imu_ended_ : nullptr;
     threads.push_back({"play_imu", ThreadRole::other,
                        [this, stream = streams[i], ended] { play(*stream, ended); }});
   }
@@ -50,7 +53,8 @@ void RecordedInputs::play_merged() {
   // As fast as possible means: as fast as the rings are emptied. Nothing is lost.
   const auto full = [](const auto& ring) { return ring.size_approx() + 8 > ring.capacity(); };
   while (!stopped()) {
-    if (full(rings_.lidar) || full(rings_.imu) || full(rings_.imu_publish)) {
+    if (full(rings_.lidar) || full(rings_.imu) || full(rings_.imu_publish) ||
+        full(rings_.encoder)) {
       std::this_thread::sleep_for(std::chrono::microseconds{100});
       continue;
     }

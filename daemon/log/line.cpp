@@ -100,7 +100,7 @@ void Field::append_to(std::string& line) const {
 }
 
 std::string format_line(Destination destination, config::LogLevel level, std::string_view event,
-                        std::initializer_list<Field> fields) {
+                        std::span<const Field> fields) {
   std::string line;
   if (destination == Destination::journal) {
     line += journal_priority(level);

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -44,6 +45,11 @@ inline constexpr std::size_t kMaxLineBytes = 4096;
 // The line with its newline. Control bytes, quotes and backslashes of the values are escaped, so a
 // line is always one line.
 [[nodiscard]] std::string format_line(Destination destination, config::LogLevel level,
-                                      std::string_view event, std::initializer_list<Field> fields);
+                                      std::string_view event, std::span<const Field> fields);
+[[nodiscard]] inline std::string format_line(Destination destination, config::LogLevel level,
+                                             std::string_view event,
+                                             std::initializer_list<Field> fields) {
+  return format_line(destination, level, event, std::span(fields.begin(), fields.size()));
+}
 
 }  // namespace convexcut::daemon::log

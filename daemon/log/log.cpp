@@ -40,7 +40,7 @@ bool enabled(config::LogLevel level) noexcept {
   return level <= threshold.load(std::memory_order_relaxed);
 }
 
-void write(config::LogLevel level, std::string_view event, std::initializer_list<Field> fields) {
+void write(config::LogLevel level, std::string_view event, std::span<const Field> fields) {
   if (!enabled(level)) return;
   static const Destination destination = stderr_destination(std::getenv("JOURNAL_STREAM"));
   write_once(format_line(destination, level, event, fields));

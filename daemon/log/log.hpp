@@ -9,6 +9,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <span>
 #include <string_view>
 
 #include "config/config.hpp"
@@ -21,7 +22,11 @@ void set_level(config::LogLevel level) noexcept;
 [[nodiscard]] bool enabled(config::LogLevel level) noexcept;
 
 // Events are named as data: lower case, words joined by '_'.
-void write(config::LogLevel level, std::string_view event, std::initializer_list<Field> fields);
+void write(config::LogLevel level, std::string_view event, std::span<const Field> fields);
+inline void write(config::LogLevel level, std::string_view event,
+                  std::initializer_list<Field> fields) {
+  write(level, event, std::span(fields.begin(), fields.size()));
+}
 
 inline void error(std::string_view event, std::initializer_list<Field> fields = {}) {
   write(config::LogLevel::error, event, fields);

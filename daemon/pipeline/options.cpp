@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From the configuration's words to the pipeline's options.
+#include <algorithm>
+
 #include "daemon/pipeline/pipeline.hpp"
 
 namespace convexcut::daemon {
@@ -31,6 +33,18 @@ namespace {
   return cut;
 }
 
+[[nodiscard]] StageUse stage_use(config::EncoderUse use) {
+  switch (use) {
+    case config::EncoderUse::yaw:
+      return StageUse::heading;
+    case config::EncoderUse::orientation:
+      return StageUse::orientation;
+    case config::EncoderUse::off:
+      break;
+  }
+  return StageUse::none;
+}
+
 }  // namespace
 
 PipelineOptions pipeline_options(const config::Config& config, unsigned threads) {
@@ -46,7 +60,14 @@ PipelineOptions pipeline_options(const config::Config& config, unsigned threads)
   options.q_imu_from_lidar =
       to_quaternion({config.imu.mount_roll, config.imu.mount_pitch, config.imu.mount_yaw});
   options.orientation_max_age = std::chrono::milliseconds{config.imu.max_age_ms};
+  options.stage_use = stage_use(config.encoder.use);
+  options.stage_axis =
+      config.encoder.axis == config::EncoderAxis::tilt ? StageAxis::tilt : StageAxis::rotation;
+  options.stage_max_age = std::chrono::milliseconds{config.encoder.timeout_ms};
   options.orientation_wait = options.orientation_max_age;
+  if (options.stage_use != StageUse::none) {
+    options.orientation_wait = std::max(options.orientation_wait, options.stage_max_age);
+  }
   return options;
 }
 

@@ -12,6 +12,13 @@ constexpr Duration kPpsAgreement = std::chrono::milliseconds{100};
 
 // 2 s of a 400 Hz IMU: more than any scan spans and waits.
 constexpr std::size_t kOrientations = 1024;
+// 2 s of a stage that sends every millisecond.
+constexpr std::size_t kStageAngles = 2048;
+
+[[nodiscard]] bool reaches(const OrientationTrack& track, HostTime time) noexcept {
+  const auto newest = track.newest();
+  return newest && *newest >= time;
+}
 
 }  // namespace
 
@@ -19,6 +26,7 @@ Pipeline::Pipeline(const PipelineOptions& options)
     : options_(options),
       cutter_(options.cut, options.max_returns_per_scan, kMaxFiringsPerScan),
       track_(kOrientations, options.orientation_max_age),
+      stage_track_(kStageAngles, options.stage_max_age),
       engine_(options.convex_cut, options.max_returns_per_scan, options.threads) {
   for (Scan& scan : waiting_) reserve(scan, options.max_returns_per_scan, kMaxFiringsPerScan);
 }
@@ -47,6 +55,15 @@ void Pipeline::on_imu(const ImuSample& sample) noexcept {
   ++(track_.push(time, sample.q_level_from_imu) ? orientations_ : orientations_refused_);
 }
 
+void Pipeline::on_encoder(const EncoderSample& sample) noexcept {
+  if (options_.stage_use == StageUse::none) return;
+  // Stamps of one socket only go back when the host's clock has been set back.
+  const auto newest = stage_track_.newest();
+  if (newest && sample.arrival < *newest - options_.stage_max_age) stage_track_.clear();
+  const Quaternion q_base_from_lidar = stage_rotation(options_.stage_axis, sample.angle);
+  ++(stage_track_.push(sample.arrival, q_base_from_lidar) ? stage_angles_ : stage_angles_refused_);
+}
+
 void Pipeline::end_of_lidar() noexcept {
   const auto take = [this](Scan& scan) { wait_for_orientation(scan); };
   sequencer_.flush(
@@ -66,10 +83,38 @@ void Pipeline::wait_for_orientation(Scan& scan) noexcept {
 }
 
 bool Pipeline::ready(const Scan& scan, HostTime now) const noexcept {
-  if (options_.fixed_mount || imu_ended_) return true;
   const HostTime last = to_host(scan.last_firing);
-  const auto newest = track_.newest();
-  return (newest && *newest >= last) || now >= last + options_.orientation_wait;
+  const bool imu_is_there = options_.fixed_mount || imu_ended_ || reaches(track_, last);
+  const bool stage_is_there =
+      options_.stage_use == StageUse::none || encoder_ended_ || reaches(stage_track_, last);
+  return (imu_is_there && stage_is_there) || now >= last + options_.orientation_wait;
+}
+
+void Pipeline::level_scan(const Scan& scan, LevelledScan& out) noexcept {
+  const HostTime stamp = to_host(scan.first_firing);
+  if (options_.fixed_mount && options_.stage_use == StageUse::none) {
+    level(scan, stamp, options_.q_level_from_lidar, out, firing_stride(effort_));
+  } else {
+    level(
+        scan, stamp, [this](HostTime time) { return lidar_orientation(time); }, out,
+        firing_stride(effort_));
+  }
+}
+
+std::optional<Quaternion> Pipeline::lidar_orientation(HostTime time) const noexcept {
+  Quaternion q_level_from_lidar = options_.q_level_from_lidar;
+  if (!options_.fixed_mount) {
+    const Orientation q_level_from_imu = track_.at(time);
+    if (q_level_from_imu.quality == OrientationQuality::missing) return std::nullopt;
+    q_level_from_lidar = q_level_from_imu.rotation * options_.q_imu_from_lidar;
+  }
+  if (options_.stage_use == StageUse::none) return q_level_from_lidar;
+  const Orientation q_base_from_lidar = stage_track_.at(time);
+  if (q_base_from_lidar.quality == OrientationQuality::missing) return std::nullopt;
+  if (options_.stage_use == StageUse::heading) {
+    return with_heading(q_level_from_lidar, q_base_from_lidar.rotation);
+  }
+  return q_level_from_lidar * q_base_from_lidar.rotation;
 }
 
 bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
@@ -77,12 +122,7 @@ bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
   const Scan& scan = waiting_[first_waiting_];
   if (!ready(scan, now)) return false;
 
-  const HostTime stamp = to_host(scan.first_firing);
-  if (options_.fixed_mount) {
-    level(scan, stamp, options_.q_level_from_lidar, out, firing_stride(effort_));
-  } else {
-    level(scan, stamp, track_, options_.q_imu_from_lidar, out, firing_stride(effort_));
-  }
+  level_scan(scan, out);
   // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
   // ever, every point would keep the label `other`.
   static_cast<void>(engine_.label(out.cloud(), out.label, plane_stride(effort_)));
@@ -117,6 +157,7 @@ void Pipeline::restart_time() noexcept {
   imu_clock_.reset();
   imu_clock_steps_ = 0;
   track_.clear();
+  stage_track_.clear();
 }
 
 Duration Pipeline::period_after(const Scan& scan) const noexcept {

@@ -4,7 +4,8 @@
 // `convexcut process`:
 //
 //   batches → unwrap and map time → put in order → cut into scans ┐
-//   samples → map time → orientation track ───────────────────────┴→ level → Convex Cut → scan
+//   samples → map time → orientation track ───────────────────────┼→ level → Convex Cut → scan
+//   angles of a turning stage → stage track ──────────────────────┘
 //
 // Knows no bytes, files, threads or topics. One thread calls it. RT after construction: allocates
 // nothing, blocks only for the engine's own threads, throws nothing.
@@ -12,11 +13,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "config/config.hpp"
 #include "core/clock/clock_mapping.hpp"
 #include "core/clock/hour_clock.hpp"
 #include "core/convex_cut/engine.hpp"
+#include "core/encoder_sample.hpp"
 #include "core/imu_sample.hpp"
 #include "core/return_batch.hpp"
 #include "core/scan/levelling.hpp"
@@ -24,6 +27,7 @@
 #include "core/scan/packet_sequencer.hpp"
 #include "core/scan/scan.hpp"
 #include "core/scan/scan_cutter.hpp"
+#include "core/scan/stage.hpp"
 #include "daemon/pipeline/effort.hpp"
 
 namespace convexcut::daemon {
@@ -40,6 +44,13 @@ enum class LidarTimeSource : std::uint8_t {
 inline constexpr std::size_t kMostReturnsPerScan = 280'000;
 inline constexpr std::size_t kMostSingleReturnsPerScan = kMostReturnsPerScan / 2;
 
+// What the angle of the stage is used for.
+enum class StageUse : std::uint8_t {
+  none,
+  heading,      // instead of the IMU's heading; roll and pitch stay the IMU's
+  orientation,  // on top of the fixed mount: level ← base is fixed, base ← lidar turns
+};
+
 struct PipelineOptions {
   CutOptions cut;
   ConvexCutParameters convex_cut;
@@ -47,9 +58,12 @@ struct PipelineOptions {
   // What a scan has beyond it is dropped and counted in overflow_returns.
   std::size_t max_returns_per_scan = kMostReturnsPerScan;
   bool fixed_mount = false;
-  Quaternion q_level_from_lidar = Quaternion::Identity();  // of the fixed mount
+  Quaternion q_level_from_lidar = Quaternion::Identity();  // of the fixed mount, stage at angle 0
   Quaternion q_imu_from_lidar = Quaternion::Identity();
   Duration orientation_max_age = std::chrono::milliseconds{50};
+  StageUse stage_use = StageUse::none;
+  StageAxis stage_axis = StageAxis::rotation;
+  Duration stage_max_age = std::chrono::milliseconds{100};
   // How long after its last firing a scan waits for the orientation of its last points.
   Duration orientation_wait = std::chrono::milliseconds{50};
 };
@@ -70,10 +84,12 @@ class Pipeline {
   // In order of arrival.
   void on_lidar(const ReturnBatch& batch) noexcept;
   void on_imu(const ImuSample& sample) noexcept;
+  void on_encoder(const EncoderSample& sample) noexcept;
   // No more will come, or none for a while: the revolution at hand is closed. At the end of the
   // IMU, waiting scans no longer wait for orientations.
   void end_of_lidar() noexcept;
   void end_of_imu() noexcept { imu_ended_ = true; }
+  void end_of_encoder() noexcept { encoder_ended_ = true; }
 
   // Levels and labels the oldest scan into `out` if it is ready at `now`: its orientations are all
   // there, or will not come in time. False: none is ready.
@@ -111,12 +127,19 @@ class Pipeline {
     return orientations_refused_;
   }
   [[nodiscard]] std::uint64_t orientations() const noexcept { return orientations_; }
+  [[nodiscard]] std::uint64_t stage_angles() const noexcept { return stage_angles_; }
+  [[nodiscard]] std::uint64_t stage_angles_refused() const noexcept {
+    return stage_angles_refused_;
+  }
 
  private:
   void wait_for_orientation(Scan& scan) noexcept;
   [[nodiscard]] bool ready(const Scan& scan, HostTime now) const noexcept;
   [[nodiscard]] Duration period_after(const Scan& scan) const noexcept;
   void pop_waiting() noexcept;
+  void level_scan(const Scan& scan, LevelledScan& out) noexcept;
+  // Lidar → level; none: missing at that time.
+  [[nodiscard]] std::optional<Quaternion> lidar_orientation(HostTime time) const noexcept;
 
   PipelineOptions options_;
   HourClock hour_clock_;
@@ -125,6 +148,7 @@ class Pipeline {
   PacketSequencer sequencer_;
   ScanCutter cutter_;
   OrientationTrack track_;
+  OrientationTrack stage_track_;
   ConvexCutEngine engine_;
 
   std::array<Scan, kMaxWaiting> waiting_;  // a ring: first_waiting_ is the oldest
@@ -134,6 +158,7 @@ class Pipeline {
   Effort effort_ = Effort::full;
   PpsState pps_ = PpsState::unknown;
   bool imu_ended_ = false;
+  bool encoder_ended_ = false;
   std::uint32_t imu_clock_steps_ = 0;
   double rotor_hz_ = 0.0;
   Duration scan_period_{0};
@@ -141,6 +166,8 @@ class Pipeline {
   std::uint64_t scans_dropped_ = 0;
   std::uint64_t orientations_ = 0;
   std::uint64_t orientations_refused_ = 0;
+  std::uint64_t stage_angles_ = 0;
+  std::uint64_t stage_angles_refused_ = 0;
 };
 
 }  // namespace convexcut::daemon

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "config/conflicts.hpp"
 #include "config/loader.hpp"
 #include "config/text_rules.hpp"
 
@@ -40,6 +41,35 @@ void require_baud(const char* key, std::uint32_t baud) {
   }
   throw config::ConfigError(std::string(key) + ": expected 0 or one of " + rates + ", found " +
                             std::to_string(baud));
+}
+
+[[nodiscard]] can::Signal layout(const config::Encoder& encoder) {
+  switch (encoder.preset) {
+    case config::EncoderPreset::cia402_position:
+      return can::cia402_position();
+    case config::EncoderPreset::cia402_position_sdo:
+      return can::cia402_position_sdo();
+    case config::EncoderPreset::none:
+      break;
+  }
+  can::Signal signal;
+  signal.order = encoder.byte_order == config::ByteOrder::intel ? can::ByteOrder::intel
+                                                                : can::ByteOrder::motorola;
+  signal.start_bit = encoder.start_bit;
+  signal.length = encoder.length_bits;
+  signal.is_signed = encoder.is_signed;
+  return signal;
+}
+
+[[nodiscard]] can::EncoderOptions encoder_options(const config::Encoder& encoder,
+                                                  std::uint32_t bitrate) {
+  can::EncoderOptions options;
+  options.id = {encoder.id, encoder.extended_id};
+  options.signal = layout(encoder);
+  options.signal.scale = encoder.scale_deg;
+  options.signal.offset = encoder.offset.value;
+  options.bitrate = bitrate;
+  return options;
 }
 
 }  // namespace
@@ -94,7 +124,31 @@ serial::SerialSourceOptions serial_source_options(const config::Imu& imu) {
   serial::SerialSourceOptions options;
   options.device = imu.device;
   options.baud = imu.baud;
+  if (imu.configure) {
+    options.configuration = {.baud = imu.baud,
+                             .set_baud = imu.set_baud,
+                             .scan_baud = imu.scan_baud,
+                             .rate_hz = static_cast<std::uint16_t>(imu.rate_hz)};
+  }
   return options;
 }
+
+can::BusOptions bus_options(const config::Config& config) {
+  can::BusOptions options{.imu = can_driver_options(config.can), .encoder = std::nullopt};
+  if (config.encoder.use != config::EncoderUse::off) {
+    options.encoder = encoder_options(config.encoder, config.can.bitrate);
+  }
+  return options;
+}
+
+socketcan::SocketCanOptions socketcan_options(const config::Config& config) {
+  const can::BusOptions devices = bus_options(config);
+  return {.interface = config.can.interface,
+          .ids = can::received_ids(devices),
+          .idle = devices.imu.group_timeout};
+}
+
+// The configuration's check of the line is made for these messages.
+static_assert(config::kConfiguredMessageBytes == xsens::mt_message_size());
 
 }  // namespace convexcut::daemon

@@ -9,13 +9,22 @@
 namespace convexcut::daemon {
 
 Recordings::Recordings(const RecordingPaths& paths, const config::Config& config,
-                       Sink<ReturnBatch>& returns, Sink<ImuSample>& samples)
-    : paths_(paths), needs_orientation_(config.mount.orientation == config::MountOrientation::imu) {
+                       Sink<ReturnBatch>& returns, Sink<ImuSample>& samples,
+                       Sink<EncoderSample>& angles)
+    : paths_(paths),
+      needs_orientation_(config.mount.orientation == config::MountOrientation::imu),
+      needs_encoder_(config.encoder.use != config::EncoderUse::off) {
   if (needs_orientation_ && paths.imu.empty() && paths.can.empty()) {
     throw config::ConfigError(
         "mount.orientation is \"imu\" but no IMU is given: expected --imu FILE or --can FILE, or a "
         "fixed "
         "mount (--set mount.orientation=fixed, with mount.roll_deg, pitch_deg and yaw_deg)");
+  }
+  if (needs_encoder_ && paths.can.empty()) {
+    throw config::ConfigError(
+        "encoder.use is not \"off\" but no CAN bus is given: expected --can FILE with the "
+        "encoder's "
+        "messages (encoder.id)");
   }
   lidar_ = std::make_unique<recording::LidarRecording>(paths.lidar,
                                                        lidar_driver_options(config.lidar), returns);
@@ -29,7 +38,7 @@ Recordings::Recordings(const RecordingPaths& paths, const config::Config& config
   if (!paths.can.empty()) {
     // One source of orientation: a serial IMU goes before one on the bus.
     Sink<ImuSample>& to = imu_ ? static_cast<Sink<ImuSample>&>(unused_samples_) : samples;
-    can_ = std::make_unique<recording::CanRecording>(paths.can, can_driver_options(config.can), to);
+    can_ = std::make_unique<recording::CanRecording>(paths.can, bus_options(config), to, angles);
   }
 }
 
@@ -87,8 +96,9 @@ std::vector<std::string> Recordings::warnings() const {
       lines.push_back(std::move(problem));
     }
   }
-  if (imu_ && can_) {
-    lines.push_back(paths_.can.string() + ": decoded but not used, orientation is taken from " +
+  if (imu_ && can_ && (!needs_encoder_ || can_->orientations() > 0)) {
+    lines.push_back(paths_.can.string() +
+                    ": its orientations are not used, orientation is taken from " +
                     paths_.imu.string());
   }
   return lines;
@@ -96,6 +106,7 @@ std::vector<std::string> Recordings::warnings() const {
 
 void Recordings::check_content() const {
   check_lidar();
+  check_encoder();
   if (!needs_orientation_) return;
   if (imu_ && imu_->orientations() == 0) {
     throw std::runtime_error(paths_.imu.string() +
@@ -109,6 +120,16 @@ void Recordings::check_content() const {
                              "Euler frames with the configured ids (can.quaternion_id …); found " +
                              can_->summary());
   }
+}
+
+void Recordings::check_encoder() const {
+  if (!needs_encoder_ || can_->encoder()->counters().samples.value() > 0) return;
+  const can::EncoderCounters& counters = can_->encoder()->counters();
+  throw std::runtime_error(
+      paths_.can.string() +
+      ": no angle of the stage in it: expected frames with encoder.id; found " + can_->summary() +
+      ", " + std::to_string(counters.frames.value()) + " of the encoder, " +
+      std::to_string(counters.short_frames.value()) + " of these too short");
 }
 
 void Recordings::check_lidar() const {

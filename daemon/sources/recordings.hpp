@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "config/config.hpp"
+#include "core/encoder_sample.hpp"
 #include "core/imu_sample.hpp"
 #include "core/return_batch.hpp"
 #include "core/sink.hpp"
 #include "daemon/sources/driver_options.hpp"
+#include "daemon/sources/null_sink.hpp"
 #include "drivers/recording/can_recording.hpp"
 #include "drivers/recording/imu_recording.hpp"
 #include "drivers/recording/lidar_recording.hpp"
@@ -32,24 +34,13 @@ struct RecordingPaths {
 [[nodiscard]] std::string no_lidar_packets(const std::filesystem::path& file,
                                            const recording::LidarRecording& recording);
 
-// Takes and forgets: what a second IMU's samples go to.
-template <class Sample>
-class NullSink final : public Sink<Sample> {
- public:
-  [[nodiscard]] Sample* claim() noexcept override { return &sample_; }
-  void commit() noexcept override {}
-
- private:
-  Sample sample_;
-};
-
 class Recordings {
  public:
   // Opens all of them. Throws capture::CaptureError or std::runtime_error of one line: missing,
-  // empty, not a recording of this kind, no lidar packet, no orientation source though the mount
-  // needs one.
+  // empty, not a recording of this kind, no lidar packet, no source of orientation or of the
+  // stage's angle though the configuration needs one.
   Recordings(const RecordingPaths& paths, const config::Config& config, Sink<ReturnBatch>& returns,
-             Sink<ImuSample>& samples);
+             Sink<ImuSample>& samples, Sink<EncoderSample>& angles);
 
   [[nodiscard]] const velodyne::LidarDriver& lidar_driver() const noexcept {
     return lidar_->driver();
@@ -76,14 +67,16 @@ class Recordings {
   // One line each about what was odd but not fatal, e.g. a file that stops inside a record.
   [[nodiscard]] std::vector<std::string> warnings() const;
   // After the end: throws std::runtime_error of one line when a recording turned out to hold
-  // nothing of use: no valid lidar packet, no orientation.
+  // nothing of use: no valid lidar packet, no orientation, no angle of a stage that is used.
   void check_content() const;
 
  private:
   void check_lidar() const;
+  void check_encoder() const;
 
   RecordingPaths paths_;
   bool needs_orientation_;
+  bool needs_encoder_;
   NullSink<ImuSample> unused_samples_;
   std::unique_ptr<recording::LidarRecording> lidar_;
   std::unique_ptr<recording::ImuRecording> imu_;

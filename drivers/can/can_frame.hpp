@@ -17,6 +17,13 @@ inline constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
 inline constexpr std::size_t kMaxClassicLength = 8;
 inline constexpr std::size_t kMaxFdLength = 64;
 
+// An arbitration identifier: 11 bits, or 29 when extended. The two kinds share no messages.
+struct CanId {
+  std::uint32_t id = 0;
+  bool extended = false;
+  friend constexpr bool operator==(const CanId&, const CanId&) = default;
+};
+
 struct CanFrame {
   HostTime stamp{};         // when the host had received the frame
   std::uint32_t id = 0;     // 11 or 29 bits; the error class bits of an error frame
@@ -31,6 +38,11 @@ struct CanFrame {
     return std::span<const std::byte>(data).first(length);
   }
 };
+
+// Whether a device that sends with this identifier sent the frame.
+[[nodiscard]] constexpr bool has_id(const CanFrame& frame, const CanId& id) noexcept {
+  return !frame.error && frame.id == id.id && frame.extended == id.extended;
+}
 
 // Whether a frame can have so many bytes of data. CAN FD has no lengths between those of its DLC.
 [[nodiscard]] constexpr bool is_valid_length(std::size_t length, bool fd) noexcept {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/can/can_imu_driver.hpp"
 
+#include "drivers/can/controller_state.hpp"
+
 namespace convexcut::can {
 namespace {
-
-constexpr std::uint32_t kBusOffClass = 0x040;  // CAN_ERR_BUSOFF
 
 template <class... Messages>
 constexpr std::uint32_t mask_of(Messages... messages) noexcept {
@@ -30,6 +30,15 @@ constexpr bool is_in(XsensMessage message, std::uint32_t mask) noexcept {
 
 }  // namespace
 
+std::vector<CanId> received_ids(const XsensCanIds& ids) {
+  std::vector<CanId> received;
+  for (std::size_t i = 0; i < kXsensMessageCount; ++i) {
+    if (!is_in(static_cast<XsensMessage>(i), kSample | kReports)) continue;
+    received.push_back({ids.ids[i], ids.extended});
+  }
+  return received;
+}
+
 CanImuDriver::CanImuDriver(const CanImuOptions& options, Sink<ImuSample>& sink) noexcept
     : options_(options), sink_(sink) {}
 
@@ -50,7 +59,7 @@ void CanImuDriver::on_frame(const CanFrame& frame) noexcept {
 
 void CanImuDriver::count_error_frame(const CanFrame& frame) noexcept {
   counters_.error_frames.add();
-  if ((frame.id & kBusOffClass) != 0) counters_.bus_off.add();
+  if ((frame.id & kBusOff) != 0) counters_.bus_off.add();
 }
 
 void CanImuDriver::on_report(XsensMessage message, const XsensCanData& data) noexcept {

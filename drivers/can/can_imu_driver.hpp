@@ -8,12 +8,14 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/counter.hpp"
 #include "core/imu_sample.hpp"
 #include "core/sink.hpp"
 #include "core/time.hpp"
 #include "drivers/can/can_frame.hpp"
+#include "drivers/can/frame_receiver.hpp"
 #include "drivers/can/xsens_can.hpp"
 #include "drivers/xsens/loss_counter.hpp"
 #include "drivers/xsens/sample_clock.hpp"
@@ -27,6 +29,10 @@ struct CanImuOptions {
   // Frames further apart than this are of different samples.
   Duration group_timeout = std::chrono::milliseconds{20};
 };
+
+// The identifiers of the messages that samples are made of, and of the device's reports: what a
+// socket has to let through.
+[[nodiscard]] std::vector<CanId> received_ids(const XsensCanIds& ids);
 
 struct CanImuCounters {
   Counter frames;           // all
@@ -65,16 +71,14 @@ struct FrameGroup {
 // group's first frame less the time that this frame was on the bus: the sample existed before its
 // transmission began, and the frames after the first can be held up by other traffic.
 // on_frame and flush on one thread; counters from any. RT: no allocation, no lock, no system call.
-class CanImuDriver {
+class CanImuDriver final : public FrameReceiver {
  public:
   // `sink` outlives the driver.
   CanImuDriver(const CanImuOptions& options, Sink<ImuSample>& sink) noexcept;
-  CanImuDriver(const CanImuDriver&) = delete;
-  CanImuDriver& operator=(const CanImuDriver&) = delete;
 
-  void on_frame(const CanFrame& frame) noexcept;
+  void on_frame(const CanFrame& frame) noexcept override;
   // Ends the group at hand: at the end of a log, or when nothing has come for the group timeout.
-  void flush() noexcept;
+  void flush() noexcept override;
 
   [[nodiscard]] const CanImuCounters& counters() const noexcept { return counters_; }
 

@@ -25,6 +25,9 @@ namespace convexcut::capture {
 namespace {
 
 constexpr int kSnapshotLength = 262'144;  // libpcap's largest for these links
+constexpr std::size_t kWriteSize = 65'536;
+constexpr std::uint64_t kFileHeader = 24;
+constexpr std::uint64_t kRecordHeader = 16;
 constexpr std::size_t kDatagramHeaders =
     ethernet::kHeaderSize + ipv4::kMinHeaderSize + udp::kHeaderSize;
 constexpr std::size_t kMacSize = ethernet::kSource - ethernet::kDestination;
@@ -88,17 +91,20 @@ void CaptureWriter::CloseDumper::operator()(pcap_dumper* dumper) const noexcept 
   ::pcap_dump_close(dumper);
 }
 
-CaptureWriter::CaptureWriter(std::filesystem::path file, LinkKind link)
+CaptureWriter::CaptureWriter(std::filesystem::path file, LinkKind link, Appears appears)
     : file_(std::move(file)),
-      part_(file_.string() + ".part"),
+      part_(appears == Appears::whole ? file_.string() + ".part" : file_.string()),
       link_(link),
+      appears_(appears),
+      bytes_(kFileHeader),
       handle_(::pcap_open_dead_with_tstamp_precision(data_link(link), kSnapshotLength,
                                                      PCAP_TSTAMP_PRECISION_NANO)) {
   if (handle_ == nullptr) throw CaptureError(file_.string() + ": out of memory");
-  std::FILE* stream = std::fopen(part_.c_str(), "wbe");
+  std::FILE* stream = std::fopen(part_.c_str(), appears == Appears::whole ? "wbe" : "wbex");
   if (stream == nullptr) {
     throw CaptureError(part_.string() + ": cannot create: " + std::strerror(errno));
   }
+  static_cast<void>(std::setvbuf(stream, nullptr, _IOFBF, kWriteSize));
   dumper_.reset(::pcap_dump_fopen(handle_.get(), stream));
   if (dumper_ == nullptr) {
     static_cast<void>(std::fclose(stream));
@@ -107,8 +113,12 @@ CaptureWriter::CaptureWriter(std::filesystem::path file, LinkKind link)
 }
 
 CaptureWriter::~CaptureWriter() {
-  if (dumper_ == nullptr) return;
+  if (dumper_ != nullptr) abandon();
+}
+
+void CaptureWriter::abandon() noexcept {
   dumper_.reset();
+  if (appears_ == Appears::at_once) return;
   std::error_code ignored;
   std::filesystem::remove(part_, ignored);
 }
@@ -127,6 +137,7 @@ void CaptureWriter::write(const Record& record) {
   ::pcap_dump(reinterpret_cast<unsigned char*>(dumper_.get()), &header,
               reinterpret_cast<const unsigned char*>(bytes.data()));
   if (std::ferror(::pcap_dump_file(dumper_.get())) != 0) fail("write");
+  bytes_ += kRecordHeader + size;
 }
 
 void CaptureWriter::frame_datagram(const Record& record) {
@@ -157,10 +168,16 @@ void CaptureWriter::frame_datagram(const Record& record) {
   std::ranges::copy(record.payload, datagram.subspan(udp::kHeaderSize).begin());
 }
 
-void CaptureWriter::close() {
+void CaptureWriter::flush() {
   if (::pcap_dump_flush(dumper_.get()) != 0) fail("write");
+  // EINVAL: not a file on a disk.
   if (::fsync(::fileno(::pcap_dump_file(dumper_.get()))) != 0 && errno != EINVAL) fail("write");
+}
+
+void CaptureWriter::close() {
+  flush();
   dumper_.reset();
+  if (appears_ == Appears::at_once) return;
   std::error_code error;
   std::filesystem::rename(part_, file_, error);
   if (error) {
@@ -171,9 +188,7 @@ void CaptureWriter::close() {
 
 void CaptureWriter::fail(const char* action) {
   const std::string reason = std::strerror(errno);
-  dumper_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
+  abandon();
   throw CaptureError(part_.string() + ": cannot " + action + ": " + reason);
 }
 

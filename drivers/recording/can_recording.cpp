@@ -3,9 +3,9 @@
 
 namespace convexcut::recording {
 
-CanRecording::CanRecording(const std::filesystem::path& file, const can::CanImuOptions& options,
-                           Sink<ImuSample>& sink)
-    : input_(file), tap_(sink), driver_(options, tap_) {}
+CanRecording::CanRecording(const std::filesystem::path& file, const can::BusOptions& options,
+                           Sink<ImuSample>& samples, Sink<EncoderSample>& angles)
+    : input_(file), tap_(samples), devices_(options, tap_, angles) {}
 
 std::optional<HostTime> CanRecording::next_stamp() {
   if (!have_frame_) have_frame_ = input_.next(frame_);
@@ -16,7 +16,7 @@ std::optional<HostTime> CanRecording::next_stamp() {
 void CanRecording::deliver() {
   ++frames_;
   ++frames_by_id_[frame_.id];
-  driver_.on_frame(frame_);
+  devices_.on_frame(frame_);
   have_frame_ = false;
 }
 

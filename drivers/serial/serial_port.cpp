@@ -104,7 +104,7 @@ int SerialPort::set_baud(std::uint32_t baud) noexcept {
   termios settings{};
   if (!speed || ::tcgetattr(fd_.get(), &settings) != 0) return EINVAL;
   if (::cfsetspeed(&settings, *speed) != 0) return EINVAL;
-  return ::tcsetattr(fd_.get(), TCSADRAIN, &settings) == 0 ? 0 : errno;
+  return ::tcsetattr(fd_.get(), TCSANOW, &settings) == 0 ? 0 : errno;
 }
 
 }  // namespace convexcut::serial

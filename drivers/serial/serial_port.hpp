@@ -40,7 +40,7 @@ class SerialPort {
   [[nodiscard]] int read(wire::WritableBytes buffer, std::size_t& size) noexcept;
   // Without waiting; 0 or errno, EAGAIN also when only a part was taken.
   [[nodiscard]] int write(wire::Bytes bytes) noexcept;
-  // Waits until all that was written has left at the old rate. 0 or errno.
+  // At once: what was written and has not left yet is lost. 0 or errno.
   [[nodiscard]] int set_baud(std::uint32_t baud) noexcept;
 
  private:

@@ -18,29 +18,46 @@ constexpr int kMaxReadsInARow = 16;
 }  // namespace
 
 SerialSource::SerialSource(SerialSourceOptions options, xsens::ImuDriver& driver, live::RawTap* tap)
-    : options_(std::move(options)), driver_(driver), tap_(tap) {}
+    : options_(std::move(options)), driver_(driver), tap_(tap) {
+  if (!options_.configuration) return;
+  configuration_.emplace(*options_.configuration, static_cast<xsens::MtLine&>(*this));
+  driver_.set_observer(&*configuration_);
+}
+
+SerialSource::~SerialSource() {
+  if (configuration_) driver_.set_observer(nullptr);
+}
 
 void SerialSource::receive(Duration wait) noexcept {
   const auto now = live::Steady::now();
   if (!port_.is_open() && pause_.take(now)) open();
-  if (port_.is_open()) {
-    wait_for_input(wait);
-  } else {
+  if (!port_.is_open()) {
     const std::timespec pause = live::to_timespec(pause_.left(now, wait));
     ::clock_nanosleep(CLOCK_MONOTONIC, 0, &pause, nullptr);
+    return;
   }
+  if (configuration_) {
+    wait = std::min<Duration>(wait, std::max<Duration>(configuration_->next_due() - now, {}));
+  }
+  wait_for_input(wait);
+  if (configuration_ && port_.is_open()) configuration_->update(live::Steady::now());
+  if (line_error_ != 0 && port_.is_open()) lose(line_error_);
 }
 
 void SerialSource::open() noexcept {
-  const int error = port_.open(options_.device, options_.baud);
+  const std::uint32_t baud = configuration_ ? configuration_->baud() : options_.baud;
+  const int error = port_.open(options_.device, baud);
   if (error != 0) return status_.set(live::LinkState::closed, error);
+  line_error_ = 0;
   counters_.opened.add();
   low_latency_.store(port_.low_latency(), std::memory_order_relaxed);
   status_.set_open();
+  if (configuration_) configuration_->begin(live::Steady::now());
 }
 
 void SerialSource::lose(int error) noexcept {
   port_.close();
+  if (configuration_) configuration_->end();
   counters_.unplugged.add();
   low_latency_.store(false, std::memory_order_relaxed);
   status_.set(live::LinkState::closed, error);
@@ -73,7 +90,20 @@ void SerialSource::deliver(wire::Bytes bytes, HostTime stamp) noexcept {
   if (tap_ != nullptr) {
     tap_->on_record({.stamp = stamp, .kind = capture::RecordKind::serial, .payload = bytes});
   }
+  if (configuration_) configuration_->update(live::Steady::now());
   driver_.on_bytes(bytes, stamp);
+}
+
+void SerialSource::send(wire::Bytes frame) noexcept {
+  const int error = port_.write(frame);
+  // A line that is full now takes the repetition.
+  if (error != 0 && error != EAGAIN && error != EINTR) line_error_ = error;
+}
+
+void SerialSource::set_baud(std::uint32_t baud) noexcept {
+  // A rate that the adapter does not have is one where nobody answers.
+  static_cast<void>(port_.set_baud(baud));
+  driver_.set_baud(baud);
 }
 
 }  // namespace convexcut::serial

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/counter.hpp"
@@ -16,6 +17,7 @@
 #include "drivers/live/retry_pause.hpp"
 #include "drivers/serial/serial_port.hpp"
 #include "drivers/xsens/imu_driver.hpp"
+#include "drivers/xsens/mt_configuration.hpp"
 
 namespace convexcut::serial {
 
@@ -23,6 +25,8 @@ struct SerialSourceOptions {
   // As it is given; one of /dev/serial/by-id stays the same device wherever it is plugged in.
   std::string device;
   std::uint32_t baud = 115200;  // 0: left as it is (USB)
+  // Nothing: what the device sends is taken, and nothing is sent to it.
+  std::optional<xsens::MtConfigurationOptions> configuration = std::nullopt;
 };
 
 struct SerialCounters {
@@ -33,19 +37,25 @@ struct SerialCounters {
 };
 
 // Hands the bytes of each read, stamped right after it, to the tap and to the driver. The link is
-// open while the device is. A device that goes away (unplugged, hung up) is closed and tried again
-// a few times a second.
+// open while the device is. Where the device is to be configured, that is done whenever it has been
+// opened, and while it is done what it sends is decoded all the same. A device that goes away
+// (unplugged, hung up) is closed and tried again a few times a second.
 //
 // Thread: receive() on one; the rest from any. RT: see LiveSource.
-class SerialSource final : public live::LiveSource {
+class SerialSource final : public live::LiveSource, private xsens::MtLine {
  public:
   // `driver` and `tap` (which may be null) outlive the source.
   SerialSource(SerialSourceOptions options, xsens::ImuDriver& driver, live::RawTap* tap = nullptr);
+  ~SerialSource() override;
 
   void receive(Duration wait) noexcept override;
   [[nodiscard]] live::LinkState link() const noexcept override { return status_.state(); }
   [[nodiscard]] int last_error() const noexcept override { return status_.last_error(); }
 
+  // Null for a device that is not configured.
+  [[nodiscard]] const xsens::MtConfiguration* configuration() const noexcept {
+    return configuration_ ? &*configuration_ : nullptr;
+  }
   [[nodiscard]] const SerialCounters& counters() const noexcept { return counters_; }
   // See SerialPort::low_latency(); false while the device is closed.
   [[nodiscard]] bool low_latency() const noexcept {
@@ -61,6 +71,9 @@ class SerialSource final : public live::LiveSource {
   void wait_for_input(Duration wait) noexcept;
   void drain() noexcept;
   void deliver(wire::Bytes bytes, HostTime stamp) noexcept;
+  // Of the device's configuration.
+  void send(wire::Bytes frame) noexcept override;
+  void set_baud(std::uint32_t baud) noexcept override;
 
   SerialSourceOptions options_;
   xsens::ImuDriver& driver_;
@@ -70,6 +83,8 @@ class SerialSource final : public live::LiveSource {
   SerialCounters counters_;
   std::atomic<bool> low_latency_{false};  // pairs with low_latency()
   SerialPort port_;
+  std::optional<xsens::MtConfiguration> configuration_;
+  int line_error_ = 0;  // of a write or a change of rate, which happen inside of other calls
   std::array<std::byte, kBufferSize> buffer_;
 };
 

@@ -13,6 +13,7 @@ void ImuDriver::on_bytes(wire::Bytes bytes, HostTime stamp) noexcept {
 }
 
 void ImuDriver::on_frame(const XbusFrame& frame, HostTime stamp) noexcept {
+  if (observer_ != nullptr) observer_->on_frame(frame);
   switch (static_cast<MessageId>(frame.message_id)) {
     case MessageId::mtdata2:
       counters_.data_messages.add();

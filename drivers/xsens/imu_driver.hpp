@@ -17,6 +17,7 @@
 #include "drivers/xsens/sample_clock.hpp"
 #include "drivers/xsens/to_sample.hpp"
 #include "drivers/xsens/xbus_framer.hpp"
+#include "drivers/xsens/xbus_observer.hpp"
 
 namespace convexcut::xsens {
 
@@ -44,7 +45,7 @@ struct ImuCounters {
   std::atomic<std::uint8_t> last_error{0};  // code of the last error message (error_code.hpp)
 };
 
-// on_bytes on one thread; counters from any. RT: no allocation, no lock, no system call.
+// counters() from any thread, all else on one. RT: no allocation, no lock, no system call.
 class ImuDriver {
  public:
   // `sink` outlives the driver.
@@ -56,6 +57,11 @@ class ImuDriver {
   // that ends inside the chunk arrived before it by the line time of the bytes behind it.
   void on_bytes(wire::Bytes bytes, HostTime stamp) noexcept;
 
+  // The rate of the line has changed.
+  void set_baud(std::uint32_t baud) noexcept { options_.baud = baud; }
+  // Who hears each frame before it is decoded; null: nobody. Before the first bytes.
+  void set_observer(XbusObserver* observer) noexcept { observer_ = observer; }
+
   [[nodiscard]] const ImuCounters& counters() const noexcept { return counters_; }
 
  private:
@@ -66,6 +72,7 @@ class ImuDriver {
 
   ImuDriverOptions options_;
   Sink<ImuSample>& sink_;
+  XbusObserver* observer_ = nullptr;
   ImuCounters counters_;
   XbusFramer framer_{counters_.xbus};
   LossCounter loss_{counters_.lost_messages, counters_.counter_restarts};

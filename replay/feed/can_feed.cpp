@@ -51,7 +51,7 @@ void CanFeed::open_socket() {
 void CanFeed::rewind() {
   frames_ = std::make_unique<recording::CanFrames>(options_.file);
   have_frame_ = false;
-  newest_us_.reset();
+  newest_us_ = first_us_;
   gained_ = {};
   first_of_loop_ = true;
 }
@@ -85,6 +85,7 @@ void CanFeed::move_time(const PlayedTime& time) {
   if (newest_us_) {  // the shorter way around its 32 bits
     gained_ += std::chrono::microseconds{static_cast<std::int32_t>(recorded - *newest_us_)};
   }
+  if (!first_us_) first_us_ = recorded;
   newest_us_ = recorded;
   const auto shift = std::chrono::duration_cast<std::chrono::microseconds>(time.shift(gained_));
   wire::store_be<std::uint32_t>(frame_.data, 0,

@@ -51,8 +51,9 @@ class CanFeed final : public Feed {
   std::unique_ptr<recording::CanFrames> frames_;
   can::CanFrame frame_;
   bool have_frame_ = false;
-  std::optional<std::uint32_t> newest_us_;  // SampleTime as recorded
-  Duration gained_{};                       // by the device's clock since its first frame
+  std::optional<std::uint32_t> first_us_;  // SampleTime as recorded
+  std::optional<std::uint32_t> newest_us_;
+  Duration gained_{};  // by the device's clock since its first frame
   bool first_of_loop_ = true;
   std::uint16_t counter_shift_ = 0;
   std::optional<std::uint16_t> newest_counter_;  // as it was sent

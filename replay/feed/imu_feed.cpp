@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/feed/imu_feed.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -50,7 +51,7 @@ ImuFeed::ImuFeed(ImuFeedOptions options, EmulatedImu& device, const Faults& faul
 void ImuFeed::rewind() {
   messages_ = std::make_unique<ImuMessages>(options_.file, options_.unstamped_start);
   clock_ = xsens::SampleClock::sample_time_fine();
-  first_time_.reset();
+  newest_time_.reset();
   first_of_loop_ = true;
 }
 
@@ -63,7 +64,7 @@ std::optional<HostTime> ImuFeed::next_stamp() {
 void ImuFeed::send(const PlayedTime& time) {
   std::vector<std::byte> frame = messages_->front()->frame;
   messages_->pop();
-  move_time(frame, time);
+  if (!move_time(frame, time)) return;
   if (dice_.chance(faults_.loss)) {
     ++lost_;
   } else if (put_on_line(frame)) {
@@ -87,9 +88,9 @@ bool ImuFeed::put_on_line(wire::Bytes frame) {
   return false;
 }
 
-void ImuFeed::move_time(std::vector<std::byte>& frame, const PlayedTime& time) {
+bool ImuFeed::move_time(std::vector<std::byte>& frame, const PlayedTime& time) {
   const auto message = static_cast<xsens::MessageId>(frame[xsens::kMessageIdOffset]);
-  if (message != xsens::MessageId::mtdata2) return;
+  if (message != xsens::MessageId::mtdata2) return true;
   const std::size_t header = header_size(frame);
   const wire::WritableBytes payload =
       wire::WritableBytes(frame).subspan(header, frame.size() - header - xsens::kChecksumSize);
@@ -98,10 +99,12 @@ void ImuFeed::move_time(std::vector<std::byte>& frame, const PlayedTime& time) {
     const auto at = static_cast<std::size_t>(item.data.data() - payload.data());
     items.take(item, payload.subspan(at, item.data.size()));
   });
-  if (!whole) return;
+  if (!whole) return true;
+  if (!items.fine.empty() && !move_ticks(items, time)) return false;
   if (!items.counter.empty()) move_counter(items.counter);
-  if (!items.fine.empty()) move_ticks(items, time);
+  first_of_loop_ = false;
   frame.back() = xsens::checksum(frame);
+  return true;
 }
 
 void ImuFeed::move_counter(wire::WritableBytes counter) {
@@ -109,12 +112,11 @@ void ImuFeed::move_counter(wire::WritableBytes counter) {
   if (first_of_loop_ && newest_counter_) {
     counter_shift_ = static_cast<std::uint16_t>(*newest_counter_ + 1 - recorded);
   }
-  first_of_loop_ = false;
   newest_counter_ = static_cast<std::uint16_t>(recorded + counter_shift_);
   wire::store_be<std::uint16_t>(counter, 0, *newest_counter_);
 }
 
-void ImuFeed::move_ticks(const TimeItems& items, const PlayedTime& time) {
+bool ImuFeed::move_ticks(const TimeItems& items, const PlayedTime& time) {
   const std::int64_t fine = wire::load_be<std::uint32_t>(items.fine, 0);
   std::int64_t ticks = fine;
   if (!items.coarse.empty()) {
@@ -122,21 +124,28 @@ void ImuFeed::move_ticks(const TimeItems& items, const PlayedTime& time) {
             fine % kTicksPerSecond;
   }
   const ImuTime unwrapped = clock_.unwrap(static_cast<std::uint32_t>(ticks));
-  if (!first_time_) {
-    first_time_ = unwrapped;
-  } else if (const Duration step = unwrapped - newest_time_;
-             step > Duration{0} && (interval_ == Duration{0} || step < interval_)) {
-    interval_ = step;
-  }
-  newest_time_ = unwrapped;
-  const std::int64_t shift = time.shift(unwrapped - *first_time_) / kTick;
-  if (shift == 0) return;
+  if (!first_time_) first_time_ = unwrapped;
+  const Duration gained = unwrapped - *first_time_;
+  // Reads are stamped later than the device's time, and unevenly: at the seam two may overlap.
+  if (first_of_loop_ && newest_sent_ && time(gained) <= *newest_sent_) return false;
+  note_interval(unwrapped);
+  newest_sent_ = std::max(newest_sent_.value_or(Duration::min()), time(gained));
+  const std::int64_t shift = time.shift(gained) / kTick;
+  if (shift == 0) return true;
   const std::int64_t wrap = fine < kDayTicks ? kDayTicks : std::int64_t{1} << 32U;
   const std::int64_t moved = ((fine + shift) % wrap + wrap) % wrap;
   wire::store_be<std::uint32_t>(items.fine, 0, static_cast<std::uint32_t>(moved));
-  if (items.coarse.empty()) return;
-  wire::store_be<std::uint32_t>(items.coarse, 0,
-                                static_cast<std::uint32_t>((ticks + shift) / kTicksPerSecond));
+  if (!items.coarse.empty()) {
+    const std::int64_t seconds = (ticks + shift) / kTicksPerSecond;
+    wire::store_be<std::uint32_t>(items.coarse, 0, static_cast<std::uint32_t>(seconds));
+  }
+  return true;
+}
+
+void ImuFeed::note_interval(ImuTime time) {
+  const Duration step = newest_time_ ? time - *newest_time_ : Duration{0};
+  if (step > Duration{0} && (interval_ == Duration{0} || step < interval_)) interval_ = step;
+  newest_time_ = time;
 }
 
 }  // namespace convexcut::replay

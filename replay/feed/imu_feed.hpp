@@ -48,10 +48,12 @@ class ImuFeed final : public Feed {
     void take(const xsens::RawItem& item, wire::WritableBytes data);
   };
 
-  // Moves counter and time of a measurement message and seals it again.
-  void move_time(std::vector<std::byte>& frame, const PlayedTime& time);
+  // Moves counter and time of a measurement message and seals it again; false for one that is not
+  // after the last one of the loop before.
+  [[nodiscard]] bool move_time(std::vector<std::byte>& frame, const PlayedTime& time);
   void move_counter(wire::WritableBytes counter);
-  void move_ticks(const TimeItems& items, const PlayedTime& time);
+  [[nodiscard]] bool move_ticks(const TimeItems& items, const PlayedTime& time);
+  void note_interval(ImuTime time);
   [[nodiscard]] bool put_on_line(wire::Bytes frame);
 
   ImuFeedOptions options_;
@@ -61,8 +63,9 @@ class ImuFeed final : public Feed {
   std::unique_ptr<ImuMessages> messages_;
   xsens::SampleClock clock_ = xsens::SampleClock::sample_time_fine();
   std::optional<ImuTime> first_time_;
-  ImuTime newest_time_{};
-  Duration interval_{};  // the least between messages, by the device's clock
+  std::optional<ImuTime> newest_time_;   // of this loop, as recorded
+  std::optional<Duration> newest_sent_;  // of all, since the first
+  Duration interval_{};                  // the least between messages, by the device's clock
   std::uint16_t counter_shift_ = 0;
   std::optional<std::uint16_t> newest_counter_;  // as it was sent
   bool first_of_loop_ = true;

@@ -17,6 +17,7 @@ namespace {
 // A terminal that nobody has open cannot be waited for; it is looked at this often.
 constexpr Duration kLongestNap = std::chrono::milliseconds{20};
 constexpr Duration kLoopStep = std::chrono::microseconds{100};  // of SampleTimeFine
+constexpr auto kTimeToRead = std::chrono::milliseconds{250};
 constexpr auto kStartDelay = std::chrono::milliseconds{20};
 
 live::FileDescriptor stop_signals() {
@@ -66,11 +67,12 @@ void Player::run(const std::function<void()>& progress) {
     play_once(progress);
     if (stopped_) break;
     if (played_nothing()) throw std::runtime_error("nothing to play between --from and --to");
-    if (!options_.loop) break;
-    if (played_.loop == 0) find_length();
+    if (options_.times != 0 && played_.loop + 1 >= options_.times) break;
+    if (played_.loop == 0) find_loop();
     ++played_.loop;
     for (const Part& part : parts_) part.feed->rewind();
   } while (!stopped_);
+  leave_time_to_read();
   if (link_ != nullptr) {
     link_->release(live::Steady::now());
     while (!stopped_ && link_->next_due()) wait_until(*link_->next_due());
@@ -84,16 +86,26 @@ void Player::play_once(const std::function<void()>& progress) {
     if (part == nullptr) return;
     // Records that are older than the one before are sent after it nevertheless.
     newest = std::max(newest, *part->feed->next_stamp());
-    const Duration recorded = newest - first_ - options_.from;
-    if (recorded < Duration{0}) {
+    if (newest - first_ < options_.from || newest < loop_begin_) {
       part->feed->skip();
       continue;
     }
-    if (newest - first_ >= options_.to) return;
-    send(*part->feed, recorded);
+    if (newest - first_ >= options_.to || ends_before(newest)) return;
+    send(*part->feed, newest - first_ - options_.from);
+    part->first = std::min(part->first, newest);
     part->latest = std::max(part->latest, newest);
     progress();
   }
+}
+
+// When it is played again, the other sensors end with the first one.
+bool Player::ends_before(HostTime stamp) const {
+  const bool last = options_.times != 0 && played_.loop + 1 >= options_.times;
+  if (last) return false;
+  const Part& beat = parts_.front();
+  if (played_.loop > 0) return stamp >= loop_end_;
+  return beat.latest != HostTime::min() && !beat.feed->next_stamp() &&
+         stamp >= beat.latest + beat.feed->record_interval();
 }
 
 void Player::send(Feed& feed, Duration recorded) {
@@ -109,16 +121,20 @@ void Player::send(Feed& feed, Duration recorded) {
   feed.send(played_);
 }
 
-// Each sensor is silent for a record's time after its last one; the whole is a number of ticks of
-// every device's time, so that all are moved by the same.
-void Player::find_length() {
-  HostTime end = HostTime::min();
-  for (const Part& part : parts_) {
-    if (part.latest == HostTime::min()) continue;
-    end = std::max(end, part.latest + part.feed->record_interval());
-  }
-  const Duration length = end - first_ - options_.from;
-  played_.loop_length = (length + kLoopStep) / kLoopStep * kLoopStep;
+// The length is a whole number of ticks of every device's time, so that all are moved by the same.
+void Player::find_loop() {
+  const Part& beat = parts_.front();
+  loop_begin_ = beat.first;
+  const Duration length = beat.latest - beat.first + beat.feed->record_interval();
+  played_.loop_length = std::max((length + kLoopStep / 2) / kLoopStep, std::int64_t{1}) * kLoopStep;
+  loop_end_ = beat.first + played_.loop_length;
+}
+
+// Pulling the plug throws away what the host has not read yet.
+void Player::leave_time_to_read() {
+  if (imu_ == nullptr || !imu_->plugged_in() || !imu_->terminal().heard()) return;
+  const Time until = live::Steady::now() + kTimeToRead;
+  while (!stopped_ && live::Steady::now() < until) wait_until(until);
 }
 
 void Player::wait_for_listener() {

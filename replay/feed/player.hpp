@@ -16,9 +16,9 @@
 namespace convexcut::replay {
 
 struct PlayerOptions {
-  double rate = 1.0;  // recorded seconds per second; 0: as fast as possible
-  bool loop = false;
-  Duration from{};  // of the recording, from its first record
+  double rate = 1.0;        // recorded seconds per second; 0: as fast as possible
+  std::uint64_t times = 1;  // that the recording is played; 0: until a signal
+  Duration from{};          // of the recording, from its first record
   Duration to = Duration::max();
   Duration wait{};  // for a program that opens the IMU, before the start
   Faults faults{};  // the player sees to the stalls
@@ -26,9 +26,10 @@ struct PlayerOptions {
   Duration unplugged_for = std::chrono::seconds{2};
 };
 
-// Plays recorded sensors side by side. A record is due at start + recorded time ÷ rate, whatever
-// happened before: lateness does not add up. Between records the emulated IMU answers its host. One
-// thread.
+// Plays recorded sensors side by side. What is played again is the time of the first of them, the
+// lidar where there is one: its last packet and its first are then a packet's time apart. A record
+// is due at start + recorded time ÷ rate, whatever happened before: lateness does not add up.
+// Between records the emulated IMU answers its host. One thread.
 class Player {
  public:
   using Time = live::Steady::time_point;
@@ -51,16 +52,19 @@ class Player {
  private:
   struct Part {
     Feed* feed = nullptr;
-    HostTime latest = HostTime::min();  // of what was played
+    HostTime first = HostTime::max();  // of what was played
+    HostTime latest = HostTime::min();
   };
 
   [[nodiscard]] Part* next_part();
   void play_once(const std::function<void()>& progress);
   void send(Feed& feed, Duration recorded);
   [[nodiscard]] bool played_nothing() const;
-  void find_length();
+  [[nodiscard]] bool ends_before(HostTime stamp) const;
+  void find_loop();
   [[nodiscard]] bool paced() const noexcept { return options_.rate > 0; }
   void wait_for_listener();
+  void leave_time_to_read();
   // Until `due`, or a signal; serves link and IMU meanwhile.
   void wait_until(Time due);
   void serve(Time now);
@@ -73,6 +77,8 @@ class Player {
   EmulatedImu* imu_;
   live::FileDescriptor signals_;
   HostTime first_{};
+  HostTime loop_begin_ = HostTime::min();
+  HostTime loop_end_ = HostTime::max();
   PlayedTime played_;
   Time start_{};
   bool unplugged_ = false;

@@ -69,6 +69,52 @@ TEST(Conflicts, LongCanIdentifiersNeedExtendedOnes) {
   EXPECT_THAT(errors_of("[can]\nquaternion_id = 0x7ff\n"), IsEmpty());
 }
 
+TEST(Conflicts, HeadingOfAStageNeedsAnImuAndAVerticalAxis) {
+  EXPECT_THAT(errors_of("[encoder]\nuse = 'yaw'\n"), IsEmpty());
+  EXPECT_THAT(errors_of("[encoder]\nuse = 'yaw'\naxis = 'tilt'\n[mount]\norientation = 'fixed'\n"),
+              ElementsAre("robot.toml:5: mount.orientation: expected mount.orientation = \"imu\" "
+                          "with encoder.use = \"yaw\", found \"fixed\"",
+                          "robot.toml:3: encoder.axis: expected encoder.axis = \"rotation\" with "
+                          "encoder.use = \"yaw\", found \"tilt\""));
+}
+
+TEST(Conflicts, OrientationOfAStageNeedsAFixedMount) {
+  EXPECT_THAT(errors_of("[encoder]\nuse = 'orientation'\n"),
+              ElementsAre("robot.toml:2: encoder.use: expected mount.orientation = \"fixed\" with "
+                          "encoder.use = \"orientation\", found \"imu\""));
+  EXPECT_THAT(errors_of("[mount]\norientation = 'fixed'\n[encoder]\nuse = 'orientation'\naxis = "
+                        "'tilt'\n"),
+              IsEmpty());
+}
+
+TEST(Conflicts, EncoderHasAnIdentifierOfItsOwn) {
+  EXPECT_THAT(errors_of("[encoder]\nuse = 'yaw'\nid = 0x21\n"),
+              ElementsAre("robot.toml:3: encoder.id: expected encoder.id and can.quaternion_id to "
+                          "differ, found 0x21 for both"));
+  EXPECT_THAT(errors_of("[encoder]\nuse = 'yaw'\nid = 0x21\nextended_id = true\n"), IsEmpty());
+  EXPECT_THAT(errors_of("[encoder]\nid = 0x21\n"), IsEmpty());  // not used
+  EXPECT_THAT(errors_of("[encoder]\nuse = 'yaw'\nid = 0x800\n"),
+              ElementsAre(HasSubstr("expected at most 0x7ff without encoder.extended_id")));
+}
+
+TEST(Conflicts, CountOfTheEncoderIsWithinAFrame) {
+  const std::string used = "[encoder]\nuse = 'yaw'\n";
+  EXPECT_THAT(errors_of(used + "start_bit = 480\n"), IsEmpty());
+  EXPECT_THAT(errors_of(used + "start_bit = 481\n"),
+              ElementsAre("robot.toml:3: encoder.start_bit: expected a count that ends within 64 "
+                          "bytes, found 32 bits from bit 481"));
+  EXPECT_THAT(errors_of(used + "start_bit = 481\npreset = 'cia402_position'\n"), IsEmpty());
+  EXPECT_THAT(errors_of(used + "byte_order = 'motorola'\nstart_bit = 487\n"), IsEmpty());
+  EXPECT_THAT(errors_of(used + "byte_order = 'motorola'\nstart_bit = 486\n"),
+              ElementsAre(HasSubstr("ends within 64 bytes")));
+}
+
+TEST(Conflicts, CountOfTheEncoderTurnsTheStage) {
+  EXPECT_THAT(errors_of("[encoder]\nuse = 'yaw'\nscale_deg = 0\n"),
+              ElementsAre("robot.toml:3: encoder.scale_deg: expected another number than 0, found "
+                          "0"));
+}
+
 TEST(Conflicts, TopicsAndFramesDiffer) {
   EXPECT_THAT(errors_of("[dds]\npoints_topic = 'imu/data'\nimu_frame = 'level'\n"),
               ElementsAre(HasSubstr("expected dds.points_topic and dds.imu_topic to differ"),

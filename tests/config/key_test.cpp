@@ -201,6 +201,8 @@ TEST(Schema, EveryFieldOfConfigHasAKey) {
   EXPECT_EQ(keys_of("convex_cut"), count_fields<ConvexCut>());
   EXPECT_EQ(keys_of("worker"), count_fields<Worker>());
   EXPECT_EQ(keys_of("dds"), count_fields<Dds>());
+  EXPECT_EQ(keys_of("record"), count_fields<Record>());
+  EXPECT_EQ(keys_of("metrics"), count_fields<Metrics>());
   EXPECT_EQ(keys_of("log"), count_fields<Log>());
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/simd/simd_path.hpp"
 #include "tests/support/room.hpp"
 
 namespace convexcut::test {
@@ -78,6 +79,27 @@ TEST_F(Process, IsBitIdenticalOnEveryRunAndForEveryNumberOfThreads) {
     ASSERT_EQ(process({"--lidar", lidar(), "--imu", imu(), "--threads", threads}).status, 0);
     EXPECT_TRUE(all_bytes() == first) << threads << " threads";
   }
+}
+
+TEST_F(Process, IsBitIdenticalOnEveryInstructionSet) {
+  make_room({"--seconds", "0.4"});
+  ASSERT_EQ(process({"--lidar", lidar(), "--imu", imu()}).status, 0);
+  const std::string best = all_bytes();
+  for (const std::string_view simd : simd_paths()) {
+    const std::string forced = "convex_cut.simd=" + std::string(simd);
+    ASSERT_EQ(process({"--lidar", lidar(), "--imu", imu(), "--set", forced}).status, 0);
+    EXPECT_TRUE(all_bytes() == best) << simd;
+  }
+}
+
+TEST_F(Process, AnInstructionSetThatTheProcessorLacksIsWrongUsage) {
+  const auto paths = simd_paths();
+  const std::string missing = std::ranges::find(paths, "neon") == paths.end() ? "neon" : "avx2";
+  const ProgramResult run =
+      run_program("convexcut", {"info", "--cpu", "--set", "convex_cut.simd=" + missing});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.error_lines(), 1U);
+  EXPECT_NE(run.err.find(missing), std::string::npos) << run.err;
 }
 
 TEST_F(Process, PcdHasTheContractsHeaderAndSize) {

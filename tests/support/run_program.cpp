@@ -38,13 +38,14 @@ void apply(const ProgramLimits& limits) {
   if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
 }
 
-// Waits for the child; sends it SIGTERM once when `err` holds the awaited text.
-int wait_for(pid_t child, const std::filesystem::path& err, const std::string& terminate_at) {
+// Waits for the child; sends it SIGTERM once when it has written the awaited text.
+int wait_for(pid_t child, const std::filesystem::path& out, const std::filesystem::path& err,
+             const std::string& terminate_at) {
   int status = 0;
   bool terminated = terminate_at.empty();
   while (!terminated) {
     if (::waitpid(child, &status, WNOHANG) == child) return status;
-    if (text_of(err).find(terminate_at) != std::string::npos) {
+    if ((text_of(out) + text_of(err)).find(terminate_at) != std::string::npos) {
       ::kill(child, SIGTERM);
       terminated = true;
     }
@@ -90,7 +91,7 @@ ProgramResult run_program(const std::string& name, const std::vector<std::string
                           const ProgramLimits& limits) {
   const TemporaryDirectory directory;
   const pid_t child = start_program(name, arguments, limits, directory.path());
-  const int status = wait_for(child, directory.path() / "err", limits.terminate_at);
+  const int status = wait_for(child, directory.path() / "out", directory.path() / "err", limits.terminate_at);
   return program_result(status, directory.path());
 }
 

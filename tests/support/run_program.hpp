@@ -18,7 +18,7 @@ struct ProgramResult {
 };
 
 struct ProgramLimits {
-  std::string terminate_at;  // sends SIGTERM when this has been written to stderr; empty: never
+  std::string terminate_at;  // sends SIGTERM when this has been written; empty: never
   long file_size_bytes =
       -1;  // RLIMIT_FSIZE, with SIGXFSZ ignored: writing beyond fails like a full disk
 };

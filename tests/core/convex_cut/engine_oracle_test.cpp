@@ -13,6 +13,7 @@
 #include "core/convex_cut/engine.hpp"
 #include "core/convex_cut/reference.hpp"
 #include "tests/core/convex_cut/clouds.hpp"
+#include "tests/core/convex_cut/every_simd_path.hpp"
 
 namespace convexcut {
 namespace {
@@ -54,6 +55,28 @@ TEST_P(EngineOracle, LabelsAreTheReferencesForEveryThreadCount) {
     }
   }
 }
+
+class EngineOnEverySimdPath : public test::EverySimdPath {};
+
+TEST_P(EngineOnEverySimdPath, LabelsAreTheReferences) {
+  for (const test::Distribution& distribution : test::distributions()) {
+    for (std::uint64_t seed = 100; seed < 103; ++seed) {
+      test::Random random(seed);
+      const test::Cloud cloud = distribution.make(random);
+      const ConvexCutParameters parameters =
+          seed == 100 ? ConvexCutParameters{} : any_parameters(random);
+      std::vector<Label> expected(cloud.size());
+      ASSERT_EQ(reference::label(parameters, cloud.view(), expected), CutStatus::ok);
+      ConvexCutEngine engine(parameters, cloud.size(), 1);
+      std::vector<Label> labels(cloud.size());
+      ASSERT_EQ(engine.label(cloud.view(), labels), CutStatus::ok);
+      ASSERT_EQ(first_difference(labels, expected), cloud.size())
+          << distribution.name << ", seed " << seed;
+    }
+  }
+}
+
+CONVEXCUT_ON_EVERY_SIMD_PATH(EngineOnEverySimdPath);
 
 INSTANTIATE_TEST_SUITE_P(AllDistributions, EngineOracle, testing::ValuesIn(test::distributions()),
                          [](const auto& tested) { return std::string(tested.param.name); });

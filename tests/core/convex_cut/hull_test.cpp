@@ -104,7 +104,7 @@ TEST(ConvexHull, IsTheReferencesVertexByVertex) {
     }
     const std::vector<SlicePoint> expected = reference::hull(points);
     std::vector<SlicePoint> vertices(points.size() + 1);
-    const std::span<const SlicePoint> found = convex_hull(points, vertices);
+    const std::span<const SlicePoint> found = convex_hull(std::span(points), std::span(vertices));
     ASSERT_TRUE(std::ranges::equal(found, expected)) << i;
   }
 }

@@ -22,7 +22,7 @@ constexpr HostTime kStart{Duration{1'795'341'600'000'000'000}};
 
 Quaternion yaw(double degrees) { return to_quaternion({{}, {}, Degrees{degrees}}); }
 double yaw_degrees(const Orientation& o) {
-  const Quaternion& q = o.q_level_from_imu;
+  const Quaternion& q = o.rotation;
   return to_degrees(Radians{2.0 * std::atan2(q.z(), q.w())}).value;
 }
 
@@ -57,7 +57,7 @@ TEST(OrientationTrack, InterpolationTakesTheShortWayWhateverTheSign) {
   negated.coeffs() *= -1.0;
   track.push(kStart, yaw(10));
   track.push(kStart + 10ms, negated);
-  const Quaternion q = track.at(kStart + 5ms).q_level_from_imu;
+  const Quaternion q = track.at(kStart + 5ms).rotation;
   EXPECT_LT(q.angularDistance(yaw(15)), 1e-9);
 }
 
@@ -117,7 +117,7 @@ TEST(OrientationTrack, UnusableQuaternionIsRefused) {
 TEST(OrientationTrack, SamplesAreMadeOfUnitLength) {
   OrientationTrack track(8);
   track.push(kStart, Quaternion(2, 0, 0, 0));
-  EXPECT_NEAR(track.at(kStart).q_level_from_imu.norm(), 1.0, 1e-15);
+  EXPECT_NEAR(track.at(kStart).rotation.norm(), 1.0, 1e-15);
 }
 
 TEST(OrientationTrack, OldestGiveWayWhenFull) {
@@ -164,7 +164,7 @@ TEST(OrientationTrack, OrderOfQueriesDoesNotMatter) {
       const Orientation got = track.at(t);
       const Orientation expected = fresh.at(t);
       ASSERT_EQ(got.quality, expected.quality);
-      ASSERT_EQ(got.q_level_from_imu.coeffs(), expected.q_level_from_imu.coeffs());
+      ASSERT_EQ(got.rotation.coeffs(), expected.rotation.coeffs());
     }
   }
 }

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "daemon/dds/health_publisher.hpp"
 #include "daemon/dds/publisher.hpp"
 #include "support/test_domain.hpp"
 
@@ -82,17 +83,20 @@ class DiscoveryTest : public ::testing::Test {
     const ScanPublisher scans(participant, settings);
     const ImuPublisher imu(participant, settings);
     const StatusPublisher status(participant, settings);
+    const HealthPublisher health(participant, settings);
     return announced_writers(participant);
   }
 };
 
 TEST_F(DiscoveryTest, TopicsAndTypesHaveTheNamesThatRos2LooksFor) {
   const auto writers = publish(testing::test_settings());
-  ASSERT_EQ(writers.size(), 4U);
+  ASSERT_EQ(writers.size(), 6U);
   EXPECT_EQ(writers.at("rt/convexcut/structure").type_name, "sensor_msgs::msg::dds_::PointCloud2_");
   EXPECT_EQ(writers.at("rt/convexcut/points").type_name, "sensor_msgs::msg::dds_::PointCloud2_");
   EXPECT_EQ(writers.at("rt/imu/data").type_name, "sensor_msgs::msg::dds_::Imu_");
   EXPECT_EQ(writers.at("rt/convexcut/status").type_name, "convexcut::msg::dds_::ScanStatus_");
+  EXPECT_EQ(writers.at("rt/convexcut/health").type_name, "convexcut::msg::dds_::Health_");
+  EXPECT_EQ(writers.at("rt/diagnostics").type_name, "diagnostic_msgs::msg::dds_::DiagnosticArray_");
 }
 
 TEST_F(DiscoveryTest, TopicNamesAreTheConfigurations) {
@@ -112,6 +116,8 @@ TEST_F(DiscoveryTest, EveryWriterTellsItsTypeHash) {
             "typehash=RIHS01_9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5;");
   EXPECT_EQ(writers.at("rt/imu/data").user_data,
             "typehash=RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b;");
+  EXPECT_EQ(writers.at("rt/diagnostics").user_data,
+            "typehash=RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e;");
   for (const auto& [topic, writer] : writers) {
     EXPECT_TRUE(writer.user_data.starts_with("typehash=RIHS01_")) << topic;
     EXPECT_EQ(writer.user_data.size(), 81U) << topic;

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "replay/health_report.hpp"
+#include "tests/daemon/health/made_up_snapshot.hpp"
+
 namespace convexcut::replay {
 namespace {
 
@@ -98,7 +101,7 @@ TEST(WatchCounter, RemembersWhetherAnythingCame) {
 }
 
 WatchInterval typical() {
-  WatchInterval interval{10.0, 9.9, 100.2, {}};
+  WatchInterval interval{10.0, 9.9, 100.2, {}, {}};
   interval.status = {
       69'000.0, 0.612, 0.995, std::chrono::microseconds{10'010}, std::chrono::microseconds{10'250},
       0,        3,     1};
@@ -123,15 +126,77 @@ TEST(WatchLine, ShowsTheInterval) {
 
 TEST(WatchJson, IsOneObjectALine) {
   EXPECT_EQ(watch_json(typical(), 4),
-            "{\"publishers\":4,\"structure_hz\":10.00,\"points_hz\":9.90,\"imu_hz\":100.20,"
-            "\"points_per_scan\":69000.0,\"structure_share\":0.6120,\"coverage\":0.9950,"
-            "\"latency_p50_ms\":10.010,\"latency_max_ms\":10.250,\"late_scans\":0,"
-            "\"lost_packets\":3,\"lost_imu_samples\":1}\n");
+            "{\"publishers\": 4, \"structure_hz\": 10.00, \"points_hz\": 9.90, \"imu_hz\": 100.20, "
+            "\"points_per_scan\": 69000.0, \"structure_share\": 0.6120, \"coverage\": 0.9950, "
+            "\"latency_p50_ms\": 10.010, \"latency_max_ms\": 10.250, \"late_scans\": 0, "
+            "\"lost_packets\": 3, \"lost_imu_samples\": 1}\n");
 }
 
 TEST(WatchJson, LeavesOutWhatTheDaemonDidNotSay) {
   EXPECT_EQ(watch_json(WatchInterval{}, 0),
-            "{\"publishers\":0,\"structure_hz\":0.00,\"points_hz\":0.00,\"imu_hz\":0.00}\n");
+            "{\"publishers\": 0, \"structure_hz\": 0.00, \"points_hz\": 0.00, \"imu_hz\": 0.00}\n");
+}
+
+TEST(WatchLine, EndsWithTheDaemonsStateWhenItIsKnown) {
+  WatchInterval interval = typical();
+  interval.health = daemon::testing::made_up_snapshot();
+  EXPECT_TRUE(watch_line(interval).ends_with(" | faulty: imu absent; results late\n"));
+  interval.health->state = daemon::DaemonState::ok;
+  interval.health->reasons.clear();
+  EXPECT_TRUE(watch_line(interval).ends_with(" | ok\n"));
+}
+
+TEST(WatchCounter, KeepsTheNewestHealthUntilTheDaemonIsGone) {
+  WatchCounter counter;
+  EXPECT_FALSE(counter.finish(kSecond).health.has_value());
+  counter.set_health(daemon::testing::made_up_snapshot());
+  EXPECT_TRUE(counter.finish(kSecond).health.has_value());
+  EXPECT_TRUE(counter.finish(kSecond).health.has_value());
+  EXPECT_TRUE(counter.anything_came());
+  counter.forget_health();
+  EXPECT_FALSE(counter.finish(kSecond).health.has_value());
+}
+
+TEST(HealthBlock, ShowsStatesPercentilesAndCounts) {
+  EXPECT_EQ(health_block(daemon::testing::made_up_snapshot()),
+            "daemon faulty: imu absent; results late, up 0:01:30\n"
+            "  lidar  streaming   1808.0 Hz  162,720 valid, 3 invalid, 12 lost, time: envelope\n"
+            "  imu    absent         0.0 Hz  0 valid, 0 invalid, 0 lost, No such device\n"
+            "  stage                count    p50 ms    p99 ms  p99.9 ms    max ms\n"
+            "  latency                900    10.000    10.400    11.000    12.000\n"
+            "  results 900, late_results 2, recorded_bytes 1,000,000,000,000\n");
+}
+
+TEST(HealthBlock, OfADaemonThatHasJustStartedIsOneLine) {
+  EXPECT_EQ(health_block(daemon::HealthSnapshot{}), "daemon starting, up 0:00:00\n");
+}
+
+TEST(HealthJson, HasEverything) {
+  const std::string json = health_json(daemon::testing::made_up_snapshot()).text();
+  for (const char* const part :
+       {"{\"state\": \"faulty\", \"reasons\": \"imu absent; results late\", \"uptime_s\": 90.5, ",
+        "{\"name\": \"lidar\", \"state\": \"streaming\", \"required\": true, \"valid_hz\": "
+        "1808.0, ",
+        "\"last_error\": \"No such device\"}",
+        "{\"name\": \"lidar\", \"source\": \"envelope\", \"locked\": true, \"offset_ms\": "
+        "1500.000, ",
+        "{\"name\": \"latency\", \"count\": 900, \"p50_ms\": 10.000, \"p99_ms\": 10.400, "
+        "\"p99.9_ms\": 11.000, \"max_ms\": 12.000}",
+        "\"totals\": {\"results\": 900, \"empty_results\": 0, \"late_results\": 2, "}) {
+    EXPECT_NE(json.find(part), std::string::npos) << part << "\nin " << json;
+  }
+}
+
+TEST(HealthStates, ChangeWithAStateAndNotWithANumber) {
+  HealthStates states;
+  daemon::HealthSnapshot health = daemon::testing::made_up_snapshot();
+  EXPECT_TRUE(states.changed(health));
+  health.totals.results += 10;
+  health.uptime += kSecond;
+  EXPECT_FALSE(states.changed(health));
+  health.sources[0].state = daemon::SourceState::stale;
+  EXPECT_TRUE(states.changed(health));
+  EXPECT_FALSE(states.changed(health));
 }
 
 }  // namespace

@@ -9,15 +9,18 @@
 #include <future>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "daemon/dds/health_publisher.hpp"
 #include "daemon/dds/publisher.hpp"
 #include "support/test_domain.hpp"
 #include "support/test_reader.hpp"
+#include "tests/daemon/health/made_up_snapshot.hpp"
 
 namespace convexcut::replay {
 namespace {
@@ -25,6 +28,7 @@ namespace {
 using daemon::testing::made_up_scan;
 using daemon::testing::test_settings;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
@@ -48,12 +52,13 @@ WatchOptions options_for(std::chrono::seconds duration) {
   return options;
 }
 
-// All four topics of a daemon.
+// All topics of a daemon.
 struct Daemon {
   daemon::Participant participant{test_settings()};
   daemon::ScanPublisher scans{participant, test_settings()};
   daemon::ImuPublisher imu{participant, test_settings()};
   daemon::StatusPublisher status{participant, test_settings()};
+  daemon::HealthPublisher health{participant, test_settings()};
 
   // Returns when the last of watch's readers, status, has matched.
   void wait_for_watch() const {
@@ -78,6 +83,7 @@ struct Daemon {
     message.structure_points = 10;
     message.latency = std::chrono::milliseconds{10};
     EXPECT_EQ(status.publish(message), daemon::PublishStatus::sent);
+    health.publish(daemon::testing::made_up_snapshot());
   }
 };
 
@@ -114,6 +120,9 @@ TEST_F(WatchTest, PrintsWhatArrivedAndEndsWithZeroOnCtrlC) {
   const std::string text = content(out_.get());
   EXPECT_THAT(text, HasSubstr("latency"));
   EXPECT_THAT(text, HasSubstr("|     30    33.3    0.0 |   10.00   10.00      0 |"));
+  EXPECT_THAT(text, HasSubstr("faulty: imu absent; results late"));
+  EXPECT_THAT(text,
+              HasSubstr("latency                900    10.000    10.400    11.000    12.000"));
 }
 
 TEST_F(WatchTest, PrintsJsonWhenAsked) {
@@ -121,8 +130,9 @@ TEST_F(WatchTest, PrintsJsonWhenAsked) {
   options.json = true;
   EXPECT_EQ(watch_a_scan(options), 0);
   const std::string text = content(out_.get());
-  EXPECT_THAT(text, HasSubstr("{\"publishers\":4,"));
-  EXPECT_THAT(text, HasSubstr("\"structure_share\":0.3333,"));
+  EXPECT_THAT(text, HasSubstr("{\"publishers\": 5,"));
+  EXPECT_THAT(text, HasSubstr("\"structure_share\": 0.3333,"));
+  EXPECT_THAT(text, HasSubstr("\"health\": {\"state\": \"faulty\","));
 }
 
 TEST_F(WatchTest, WithoutADaemonSaysWhatToCheckAndEndsWithOne) {
@@ -133,6 +143,41 @@ TEST_F(WatchTest, WithoutADaemonSaysWhatToCheckAndEndsWithOne) {
   EXPECT_THAT(::testing::internal::GetCapturedStderr(),
               HasSubstr("no convexcut on DDS domain " + std::to_string(options.dds.domain)));
   EXPECT_EQ(content(out_.get()), "");
+}
+
+// Waits until the file holds the text; false after a long while.
+bool holds(std::FILE* file, const std::string& text) {
+  for (int i = 0; i < 400; ++i) {
+    std::array<char, 65536> buffer{};
+    const ssize_t got = ::pread(::fileno(file), buffer.data(), buffer.size(), 0);
+    if (std::string(buffer.data(), static_cast<std::size_t>(got)).find(text) != std::string::npos) {
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds{50});
+  }
+  return false;
+}
+
+TEST_F(WatchTest, SaysThatADaemonItHasSeenWentAwayAndThatItIsBack) {
+  const WatchOptions options = options_for(std::chrono::hours{1});
+  const File errors = temporary_file();
+  const int stderr_before = ::dup(STDERR_FILENO);
+  ::dup2(::fileno(errors.get()), STDERR_FILENO);
+  auto daemon = std::make_unique<Daemon>();
+  auto result = std::async(std::launch::async, [&] { return watch(options, out_.get()); });
+  daemon->wait_for_watch();
+  daemon->publish_a_scan();
+  EXPECT_TRUE(holds(out_.get(), "faulty: imu absent"));
+  daemon.reset();
+  const std::string name = "convexcut on DDS domain " + std::to_string(options.dds.domain);
+  EXPECT_TRUE(holds(errors.get(), name + " went away: the daemon ended"));
+  daemon = std::make_unique<Daemon>();
+  EXPECT_TRUE(holds(errors.get(), name + " is back"));
+  ::kill(::getpid(), SIGINT);
+  EXPECT_EQ(result.get(), 0);
+  ::dup2(stderr_before, STDERR_FILENO);
+  ::close(stderr_before);
+  EXPECT_THAT(content(errors.get()), Not(HasSubstr("no convexcut")));
 }
 
 TEST_F(WatchTest, NamesTheQosThatAPublisherDoesNotOffer) {

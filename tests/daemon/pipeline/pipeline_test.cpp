@@ -63,6 +63,9 @@ class Player {
   void send_orientations(Duration from, Duration to) {
     for (Duration t = from; t <= to; t += milliseconds{10}) send_orientation(t);
   }
+  void send_angle(Duration after_start, Degrees angle) {
+    pipeline.on_encoder({.arrival = kStart + after_start, .angle = angle.to_radians()});
+  }
   std::vector<LevelledScan> take(HostTime now) {
     std::vector<LevelledScan> scans;
     while (pipeline.next_scan(now, scan)) scans.push_back(scan);
@@ -172,6 +175,115 @@ TEST(Pipeline, EachFiringIsLevelledByTheOrientationAtItsTime) {
   const double x = static_cast<double>(scans[0].x[middle]);
   const double y = static_cast<double>(scans[0].y[middle]);
   EXPECT_NEAR(std::atan2(y, x) * 180.0 / 3.14159265, 45.0, 0.2);
+}
+
+// The return of the synthetic lidar's firing 7 and ring 1 lies at (7, 1, 0).
+constexpr std::size_t kFiring7Ring1 = 7 * 4 + 1;
+
+void expect_at(const LevelledScan& scan, std::size_t i, const Vec3& p_level) {
+  EXPECT_NEAR(scan.x[i], p_level.x(), 1e-4);
+  EXPECT_NEAR(scan.y[i], p_level.y(), 1e-4);
+  EXPECT_NEAR(scan.z[i], p_level.z(), 1e-4);
+}
+
+TEST(Pipeline, AStageTurnsTheLidarOnItsFixedMount) {
+  for (const StageAxis axis : {StageAxis::rotation, StageAxis::tilt}) {
+    PipelineOptions options = fixed_mount();
+    options.q_level_from_lidar = to_quaternion({Degrees{10}, Degrees{20}, Degrees{90}});
+    options.stage_use = StageUse::orientation;
+    options.stage_axis = axis;
+    Player player(options);
+    for (int ms = -10; ms <= 110; ms += 10) player.send_angle(milliseconds{ms}, Degrees{40});
+    player.send_packets(0, player.lidar.packets_in(milliseconds{102}));
+    const auto scans = player.take(kStart + milliseconds{102});
+    ASSERT_EQ(scans.size(), 1U);
+    const Quaternion stage = stage_rotation(axis, Degrees{40}.to_radians());
+    expect_at(scans[0], kFiring7Ring1, options.q_level_from_lidar * (stage * Vec3(7, 1, 0)));
+    EXPECT_EQ(player.pipeline.stage_angles(), 13U);
+  }
+}
+
+TEST(Pipeline, AStageGivesTheHeadingAndTheImuTheRest) {
+  PipelineOptions options = imu_mount();
+  options.stage_use = StageUse::heading;
+  Player player(options);
+  for (int ms = -10; ms <= 110; ms += 10) {
+    // The IMU's heading drifts away; that of the stage stands still.
+    player.send_orientation(milliseconds{ms},
+                            to_quaternion({Degrees{5}, Degrees{-8}, Degrees{0.3 * ms}}));
+    player.send_angle(milliseconds{ms}, Degrees{-60});
+  }
+  player.send_packets(0, player.lidar.packets_in(milliseconds{102}));
+  const auto scans = player.take(kStart + milliseconds{102});
+  ASSERT_EQ(scans.size(), 1U);
+  const Quaternion q = to_quaternion({Degrees{5}, Degrees{-8}, Degrees{-60}});
+  expect_at(scans[0], kFiring7Ring1, q * Vec3(7, 1, 0));
+  const std::size_t late = 4 * 2000 + 2;  // of firing 2000, at 92 ms
+  expect_at(scans[0], late, q * Vec3(2000, 2, 0));
+}
+
+TEST(Pipeline, EachFiringIsTurnedByTheStagesAngleAtItsTime) {
+  PipelineOptions options = fixed_mount();
+  options.stage_use = StageUse::orientation;
+  Player player(options);
+  for (int ms = -10; ms <= 110; ms += 10) player.send_angle(milliseconds{ms}, Degrees{0.9 * ms});
+  player.send_packets(0, player.lidar.packets_in(milliseconds{102}));
+  const auto scans = player.take(kStart + milliseconds{102});
+  ASSERT_EQ(scans.size(), 1U);
+  const std::size_t i = 4 * 1000;  // ring 0 of firing 1000, on the x axis
+  const double degrees =
+      std::atan2(static_cast<double>(scans[0].y[i]), static_cast<double>(scans[0].x[i])) * 180.0 /
+      3.14159265;
+  EXPECT_NEAR(degrees, 0.9 * 46.08, 0.05);
+}
+
+TEST(Pipeline, AScanWaitsForTheStagesAngleAndNotForEver) {
+  PipelineOptions options = fixed_mount();
+  options.stage_use = StageUse::orientation;
+  options.stage_max_age = milliseconds{20};
+  options.orientation_wait = milliseconds{5};
+  Player player(options);
+  for (int ms = 0; ms <= 70; ms += 10) player.send_angle(milliseconds{ms}, Degrees{1});
+  player.send_packets(0, player.lidar.packets_in(milliseconds{102}));
+  EXPECT_TRUE(player.take(kStart + milliseconds{104}).empty());
+  const auto scans = player.take(kStart + milliseconds{106});
+  ASSERT_EQ(scans.size(), 1U);
+  // From 90 ms on the newest angle is older than its timeout: a tenth of the points.
+  const double all = static_cast<double>(scans[0].size() + scans[0].dropped_no_orientation);
+  EXPECT_NEAR(scans[0].dropped_no_orientation / all, 0.1, 0.01);
+}
+
+TEST(Pipeline, NoMoreAnglesMeansNoMoreWaiting) {
+  PipelineOptions options = fixed_mount();
+  options.stage_use = StageUse::orientation;
+  Player player(options);
+  player.send_packets(0, player.lidar.packets_in(milliseconds{102}));
+  EXPECT_TRUE(player.take(kStart + milliseconds{102}).empty());
+  player.pipeline.end_of_encoder();
+  const auto scans = player.take(kStart + milliseconds{102});
+  ASSERT_EQ(scans.size(), 1U);
+  EXPECT_EQ(scans[0].size(), 0U);
+}
+
+TEST(Pipeline, AnglesAreTakenAgainAfterTheHostsClockWasSetBack) {
+  PipelineOptions options = fixed_mount();
+  options.stage_use = StageUse::orientation;
+  Player player(options);
+  player.send_angle(std::chrono::hours{1}, Degrees{1});
+  player.send_angle(milliseconds{0}, Degrees{1});
+  player.send_angle(milliseconds{10}, Degrees{1});
+  player.send_angle(milliseconds{5}, Degrees{1});  // out of order by little: refused
+  EXPECT_EQ(player.pipeline.stage_angles(), 3U);
+  EXPECT_EQ(player.pipeline.stage_angles_refused(), 1U);
+}
+
+TEST(Pipeline, AnglesThatAreNotUsedChangeNothing) {
+  Player player(fixed_mount());
+  player.send_angle(milliseconds{0}, Degrees{45});
+  player.send_packets(0, player.lidar.packets_in(milliseconds{102}));
+  const auto scans = player.take(kStart);
+  ASSERT_EQ(scans.size(), 1U);
+  expect_at(scans[0], kFiring7Ring1, Vec3(7, 1, 0));
 }
 
 TEST(Pipeline, ScansThatNobodyTakesAreDroppedAndCounted) {

@@ -9,7 +9,7 @@
 
 #include "config/loader.hpp"
 #include "drivers/live/host_clock.hpp"
-#include "replay/emulator/pseudo_terminal.hpp"
+#include "replay/emulator/emulated_imu.hpp"
 #include "tests/drivers/velodyne/collecting_sink.hpp"
 #include "tests/drivers/velodyne/packets.hpp"
 #include "tests/drivers/xsens/frames.hpp"
@@ -20,6 +20,7 @@
 namespace convexcut::daemon {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -28,6 +29,7 @@ using ::testing::StartsWith;
 struct Sinks {
   velodyne::test::CollectingSink returns;
   test::RecordingSink samples;
+  NullSink<EncoderSample> angles;
 };
 
 config::Config usual() {
@@ -53,7 +55,7 @@ bool receive_until(const LiveSources& live, const std::function<bool()>& done) {
 TEST(LiveSources, FixedMountNeedsTheLidarOnly) {
   Sinks sinks;
   const config::Config config = usual();
-  const LiveSources live(config, sinks.returns, sinks.samples);
+  const LiveSources live(config, sinks.returns, sinks.samples, sinks.angles);
   ASSERT_EQ(live.entries().size(), 1U);
   EXPECT_EQ(live.entries()[0].name, "lidar");
   EXPECT_EQ(live.entries()[0].role, SourceRole::lidar);
@@ -66,7 +68,8 @@ TEST(LiveSources, OrientationWithoutAnImuIsAConfigurationError) {
   Sinks sinks;
   config::Config config = usual();
   config.mount.orientation = config::MountOrientation::imu;
-  EXPECT_THROW(LiveSources(config, sinks.returns, sinks.samples), config::ConfigError);
+  EXPECT_THROW(LiveSources(config, sinks.returns, sinks.samples, sinks.angles),
+               config::ConfigError);
 }
 
 TEST(LiveSources, RateThatNoLineHasIsAConfigurationError) {
@@ -75,7 +78,7 @@ TEST(LiveSources, RateThatNoLineHasIsAConfigurationError) {
   config.imu.device = "/dev/none";
   config.imu.baud = 14400;
   try {
-    const LiveSources live(config, sinks.returns, sinks.samples);
+    const LiveSources live(config, sinks.returns, sinks.samples, sinks.angles);
     FAIL() << "no error";
   } catch (const config::ConfigError& error) {
     EXPECT_THAT(error.what(), StartsWith("imu.baud: expected 0 or one of 4800, "));
@@ -88,7 +91,7 @@ TEST(LiveSources, BothSourcesReachTheirSinks) {
   replay::PseudoTerminal imu;
   config::Config config = usual();
   config.imu.device = imu.path();
-  LiveSources live(config, sinks.returns, sinks.samples);
+  LiveSources live(config, sinks.returns, sinks.samples, sinks.angles);
   ASSERT_TRUE(receive_until(live, [&] {
     return live.lidar().link() == live::LinkState::open &&
            live.imu()->link() == live::LinkState::open;
@@ -108,7 +111,7 @@ TEST(LiveSources, AbsentDeviceIsAWarningThatNamesIt) {
   Sinks sinks;
   config::Config config = usual();
   config.imu.device = "/dev/serial/by-id/none";
-  LiveSources live(config, sinks.returns, sinks.samples);
+  LiveSources live(config, sinks.returns, sinks.samples, sinks.angles);
   EXPECT_THAT(live.warnings(), IsEmpty());  // nothing was tried yet
   ASSERT_TRUE(receive_until(live, [&] { return live.lidar().link() == live::LinkState::open; }));
   EXPECT_THAT(live.warnings(),
@@ -116,12 +119,71 @@ TEST(LiveSources, AbsentDeviceIsAWarningThatNamesIt) {
                           "again"));
 }
 
+TEST(LiveSources, ImuThatRefusesIsWarnedOf) {
+  Sinks sinks;
+  replay::EmulatedImu imu({}, {.refuse_with = 33});
+  config::Config config = usual();
+  config.imu.device = imu.terminal().path();
+  config.imu.configure = true;
+  LiveSources live(config, sinks.returns, sinks.samples, sinks.angles);
+  const auto message = test::hex(xsens::test::kQuaternionMessage);
+  ASSERT_TRUE(receive_until(live, [&] {
+    imu.answer();
+    imu.measure(message);
+    return live.imu()->configuration()->state() == xsens::MtState::measuring;
+  }));
+  EXPECT_THAT(live.warnings(),
+              ElementsAre("imu: " + config.imu.device +
+                          ": refuses to send what is wanted: invalid parameter; it sends what it "
+                          "was set to before"));
+}
+
+TEST(LiveSources, ImuThatDoesNotAnswerIsWarnedOf) {
+  Sinks sinks;
+  replay::EmulatedImu imu({}, {.deaf_to = 1'000'000});
+  config::Config config = usual();
+  config.imu.device = imu.terminal().path();
+  config.imu.configure = true;
+  LiveSources live(config, sinks.returns, sinks.samples, sinks.angles);
+  ASSERT_TRUE(receive_until(live, [&] {
+    imu.answer();
+    return live.imu()->configuration()->state() == xsens::MtState::no_answer;
+  }));
+  EXPECT_THAT(live.warnings(), ElementsAre(HasSubstr("does not answer at ")));
+}
+
+TEST(LiveSources, BusIsASourceOfOrientation) {
+  Sinks sinks;
+  config::Config config = usual();
+  config.mount.orientation = config::MountOrientation::imu;
+  config.can.interface = "no-such-can";
+  LiveSources live(config, sinks.returns, sinks.samples, sinks.angles);
+  ASSERT_EQ(live.entries().size(), 2U);
+  EXPECT_EQ(live.entries()[1].name, "can");
+  EXPECT_EQ(live.entries()[1].role, SourceRole::imu);
+  EXPECT_EQ(live.entries()[1].device, "no-such-can");
+  EXPECT_EQ(live.bus()->encoder(), nullptr);
+  ASSERT_TRUE(receive_until(live, [&] { return live.can()->last_error() != 0; }));
+  EXPECT_THAT(live.warnings(), Contains(StartsWith("can: no-such-can: ")));
+}
+
+TEST(LiveSources, EncoderIsOnTheBus) {
+  Sinks sinks;
+  config::Config config = usual();
+  config.encoder.use = config::EncoderUse::orientation;
+  EXPECT_THROW(LiveSources(config, sinks.returns, sinks.samples, sinks.angles),
+               config::ConfigError);
+  config.can.interface = "no-such-can";
+  const LiveSources live(config, sinks.returns, sinks.samples, sinks.angles);
+  EXPECT_NE(live.bus()->encoder(), nullptr);
+}
+
 TEST(LiveSources, CutReceiveBufferIsAWarningThatSaysWhatToDo) {
   test::without_privileges([] {
     Sinks sinks;
     config::Config config = usual();
     config.lidar.receive_buffer_kib = 1'048'576;
-    LiveSources live(config, sinks.returns, sinks.samples);
+    LiveSources live(config, sinks.returns, sinks.samples, sinks.angles);
     ASSERT_TRUE(receive_until(live, [&] { return live.lidar().link() == live::LinkState::open; }));
     ASSERT_LT(live.lidar().receive_buffer_bytes(), std::size_t{1'048'576} * 1024);
     EXPECT_THAT(live.warnings(), ElementsAre(HasSubstr("net.core.rmem_max=1073741824")));

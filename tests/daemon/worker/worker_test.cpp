@@ -95,13 +95,14 @@ class WorkerTest : public ::testing::Test {
   PlaybackClock clock{kAsFastAsPossible, stop};
   SpscRing<ReturnBatch> lidar{256};
   SpscRing<ImuSample> imu{16};
+  SpscRing<EncoderSample> encoder{64};
   ResultRing results{4};
   test::SyntheticLidar synthetic;
   std::vector<Taken> taken;
 };
 
 TEST_F(WorkerTest, HandsOverEveryRevolutionOfARecordingInOrder) {
-  Worker worker(pipeline_options(), {}, clock, lidar, imu, results);
+  Worker worker(pipeline_options(), {}, clock, lidar, imu, encoder, results);
   run(worker, seconds{3});
   ASSERT_EQ(taken.size(), 30U);
   for (std::size_t i = 0; i < taken.size(); ++i) {
@@ -120,14 +121,14 @@ TEST_F(WorkerTest, HandsOverEveryRevolutionOfARecordingInOrder) {
 }
 
 TEST_F(WorkerTest, AShortRecordingGivesItsOneScan) {
-  Worker worker(pipeline_options(), {}, clock, lidar, imu, results);
+  Worker worker(pipeline_options(), {}, clock, lidar, imu, encoder, results);
   run(worker, milliseconds{20});
   ASSERT_EQ(taken.size(), 1U);
   EXPECT_EQ(taken[0].end, ScanEnd::end_of_input);
 }
 
 TEST_F(WorkerTest, ReturnsOnStopWhileTheInputGoesOn) {
-  Worker worker(pipeline_options(), {}, clock, lidar, imu, results);
+  Worker worker(pipeline_options(), {}, clock, lidar, imu, encoder, results);
   std::thread stopper([this] {
     while (results.size_approx() == 0) std::this_thread::yield();
     stop.store(true);
@@ -137,11 +138,27 @@ TEST_F(WorkerTest, ReturnsOnStopWhileTheInputGoesOn) {
   EXPECT_FALSE(taken.empty());
 }
 
+TEST_F(WorkerTest, AnglesOfAStageReachThePipeline) {
+  PipelineOptions options = pipeline_options();
+  options.stage_use = StageUse::orientation;
+  for (Duration t = milliseconds{-50}; t <= milliseconds{1050}; t += milliseconds{50}) {
+    EncoderSample* slot = encoder.claim();
+    ASSERT_NE(slot, nullptr);
+    *slot = {.arrival = kStart + t, .angle = {0.5}};
+    encoder.commit();
+  }
+  Worker worker(options, {}, clock, lidar, imu, encoder, results);
+  run(worker, seconds{1});
+  ASSERT_EQ(taken.size(), 10U);
+  EXPECT_GT(taken[5].points, 4000U);
+  EXPECT_EQ(worker.counters().dropped_no_orientation.value(), 0U);
+}
+
 // A sensor that is silent, on a clock that runs.
 TEST_F(WorkerTest, ASilentSensorStillGivesEmptyFlaggedResults) {
   PlaybackClock fast(20.0, stop);  // 100 ms of the grid pass in 5 ms
   fast.start(kStart);
-  Worker worker(pipeline_options(), {}, fast, lidar, imu, results);
+  Worker worker(pipeline_options(), {}, fast, lidar, imu, encoder, results);
   std::thread publisher([this] {
     while (taken.size() < 5) {
       results.consume([this](Result& result) noexcept { keep(result); });

@@ -160,6 +160,54 @@ TEST_F(Writer, WithoutCloseNothingRemainsAndAnOlderFileStays) {
   EXPECT_EQ(test::read_bytes(file()), text("older"));
 }
 
+class WriterAtOnce : public Writer {
+ protected:
+  static constexpr std::size_t kFileHeader = 24;
+  static constexpr std::size_t kRecordHeader = 16;
+};
+
+TEST_F(WriterAtOnce, HasItsNameFromTheStartAndKeepsItWithoutClose) {
+  {
+    CaptureWriter writer(file(), LinkKind::serial, Appears::at_once);
+    EXPECT_TRUE(std::filesystem::exists(file()));
+    EXPECT_FALSE(std::filesystem::exists(part()));
+    writer.write(plain(RecordKind::serial, text("kept")));
+  }
+  CaptureReader reader(file());
+  Record record;
+  ASSERT_EQ(reader.next(record), ReadStatus::record);
+  EXPECT_THAT(record.payload, ElementsAreArray(text("kept")));
+  EXPECT_EQ(reader.next(record), ReadStatus::end);
+}
+
+TEST_F(WriterAtOnce, WhatWasFlushedIsInTheFile) {
+  CaptureWriter writer(file(), LinkKind::serial, Appears::at_once);
+  writer.write(plain(RecordKind::serial, text("four")));
+  writer.flush();
+  EXPECT_EQ(std::filesystem::file_size(file()), kFileHeader + kRecordHeader + 4);
+  CaptureReader reader(file());
+  Record record;
+  ASSERT_EQ(reader.next(record), ReadStatus::record);
+  writer.write(plain(RecordKind::serial, text("and five")));
+  writer.close();
+  EXPECT_EQ(writer.bytes(), std::filesystem::file_size(file()));
+}
+
+TEST_F(WriterAtOnce, NeverOverwrites) {
+  test::write_file(file(), text("older"));
+  EXPECT_THAT(
+      error_of([&] { const CaptureWriter writer(file(), LinkKind::can, Appears::at_once); }),
+      HasSubstr("demo.pcap: cannot create: File exists"));
+  EXPECT_EQ(test::read_bytes(file()), text("older"));
+}
+
+TEST_F(Writer, CountsTheBytesOfDatagramsWithTheirHeaders) {
+  CaptureWriter writer(file(), LinkKind::ethernet);
+  for (int i = 0; i < 3; ++i) writer.write(datagram(text("hi")));
+  writer.close();
+  EXPECT_EQ(writer.bytes(), std::filesystem::file_size(file()));
+}
+
 TEST_F(Writer, MissingFolderIsAnError) {
   const std::filesystem::path nowhere = folder_.path() / "none" / "demo.pcap";
   EXPECT_THAT(error_of([&] { const CaptureWriter writer(nowhere, LinkKind::serial); }),

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/cloud_kernels.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/convex_cut/direction.hpp"
+#include "core/convex_cut/shell_index.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/convex_cut/cloud_kernels.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// Behind foreach_target.h.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace convexcut {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::ScalableTag<float>;
+using Ints = hn::ScalableTag<std::int32_t>;
+using Float = hn::Vec<Floats>;
+using Int = hn::Vec<Ints>;
+
+constexpr std::uint32_t kWithoutSign = 0x7FFF'FFFF;
+
+std::uint32_t greatest_magnitude_bits(std::span<const float> values) {
+  const Ints di;
+  const Floats df;
+  const std::size_t lanes = hn::Lanes(df);
+  const Int without_sign = hn::Set(di, static_cast<std::int32_t>(kWithoutSign));
+  Int greatest = hn::Zero(di);
+  std::size_t i = 0;
+  for (; i + lanes <= values.size(); i += lanes) {
+    const Int bits = hn::BitCast(di, hn::LoadU(df, values.data() + i));
+    greatest = hn::Max(greatest, hn::And(bits, without_sign));
+  }
+  auto result = static_cast<std::uint32_t>(hn::GetLane(hn::MaxOfLanes(di, greatest)));
+  for (; i < values.size(); ++i) {
+    result = std::max(result, std::bit_cast<std::uint32_t>(values[i]) & kWithoutSign);
+  }
+  return result;
+}
+
+// direction_modulo_half() of eight or so points at once.
+HWY_INLINE Float direction(Float x, Float y) noexcept {
+  const Floats df;
+  const Float along = hn::Xor(x, hn::And(y, hn::SignBit(df)));
+  const Float width = hn::Abs(x);
+  const Float height = hn::Abs(y);
+  const Float longer = hn::Max(width, height);
+  const Float shorter = hn::Min(width, height);
+  const Float tangent = hn::Div(shorter, hn::Add(longer, hn::Set(df, kNoLength<float>)));
+  const Float one = hn::Set(df, 1.0F);
+  const Float bend = hn::Set(df, kBend<float>);
+  const Float eighth = hn::Mul(tangent, hn::MulAdd(bend, hn::Sub(one, tangent), one));
+  const Float quarter =
+      hn::IfThenElse(hn::Gt(width, height), eighth, hn::Sub(hn::Set(df, 2.0F), eighth));
+  return hn::IfThenElse(hn::Lt(along, hn::Zero(df)), hn::Sub(hn::Set(df, 4.0F), quarter), quarter);
+}
+
+HWY_INLINE Int keys_of(Float x, Float y, Float inverse_squared_half_width) noexcept {
+  constexpr int kExponentShift = 23;
+  constexpr std::int32_t kExponentBias = 127;
+  const Ints di;
+  const Floats df;
+  // (r/d)² in [2ˢ, 2ˢ⁺¹) has the exponent s.
+  const Float ratio = hn::Mul(hn::MulAdd(x, x, hn::Mul(y, y)), inverse_squared_half_width);
+  const Int exponent =
+      hn::Sub(hn::ShiftRight<kExponentShift>(hn::BitCast(di, ratio)), hn::Set(di, kExponentBias));
+  constexpr auto kLastShell = static_cast<std::int32_t>(ShellIndex::kShells - 1);
+  constexpr auto kLastBucket = static_cast<std::int32_t>(ShellIndex::kBuckets - 1);
+  const Int shell = hn::Min(hn::Max(exponent, hn::Zero(di)), hn::Set(di, kLastShell));
+  const Float turn =
+      hn::Mul(direction(x, y), hn::Set(df, static_cast<float>(ShellIndex::kBuckets) / kHalfTurn));
+  const Int bucket = hn::Min(hn::ConvertTo(di, turn), hn::Set(di, kLastBucket));
+  constexpr int kBucketBits = std::countr_zero(ShellIndex::kBuckets);
+  return hn::Add(hn::ShiftLeft<kBucketBits>(shell), bucket);
+}
+
+void shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
+                float inverse_squared_half_width, std::uint16_t* keys) {
+  const Floats df;
+  const hn::Rebind<std::uint16_t, Floats> dk;
+  const std::size_t lanes = hn::Lanes(df);
+  const Float inverse = hn::Set(df, inverse_squared_half_width);
+  std::size_t i = begin;
+  for (; i + lanes <= end; i += lanes) {
+    const Int key =
+        keys_of(hn::LoadU(df, cloud.x.data() + i), hn::LoadU(df, cloud.y.data() + i), inverse);
+    hn::StoreU(hn::DemoteTo(dk, key), dk, keys + i);
+  }
+  HWY_ALIGN float x[hn::MaxLanes(df)] = {};
+  HWY_ALIGN float y[hn::MaxLanes(df)] = {};
+  for (std::size_t k = 0; i + k < end; ++k) {
+    x[k] = cloud.x[i + k];
+    y[k] = cloud.y[i + k];
+  }
+  HWY_ALIGN std::uint16_t last[hn::MaxLanes(df)];
+  hn::StoreU(hn::DemoteTo(dk, keys_of(hn::Load(df, x), hn::Load(df, y), inverse)), dk, last);
+  for (std::size_t k = 0; i + k < end; ++k) keys[i + k] = last[k];
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace convexcut
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace convexcut {
+
+// Highway's table takes no noexcept functions; none of them throws.
+HWY_EXPORT(greatest_magnitude_bits);
+HWY_EXPORT(shell_keys);
+
+std::uint32_t greatest_magnitude_bits(std::span<const float> values) noexcept {
+  return HWY_DYNAMIC_DISPATCH(greatest_magnitude_bits)(values);
+}
+
+void shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
+                float inverse_squared_half_width, std::uint16_t* keys) noexcept {
+  HWY_DYNAMIC_DISPATCH(shell_keys)(cloud, begin, end, inverse_squared_half_width, keys);
+}
+
+}  // namespace convexcut
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How long the data takes through each stage of the daemon.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "core/histogram.hpp"
+#include "core/ring/slot_array.hpp"
+
+namespace convexcut::daemon {
+
+enum class Stage : std::uint8_t {
+  receive_to_ring,  // a datagram's kernel stamp → its batch is in the ring; the receive thread
+  ring_to_worker,   // in the ring → taken out; the worker
+  level,            // a scan is levelled; the worker
+  cut,              // … and cut into structure and the rest; the worker
+  publish,          // the DDS write of the structure; the publisher
+  latency,          // a scan's last firing → that write returned; the publisher
+  jitter,           // |latency − worker.latency_ms|; the publisher
+};
+
+struct StageInfo {
+  Stage stage;
+  std::string_view name;
+  std::string_view help;
+};
+inline constexpr std::array<StageInfo, 7> kStages{{
+    {Stage::receive_to_ring, "receive_to_ring", "From a packet's arrival to its place in the ring"},
+    {Stage::ring_to_worker, "ring_to_worker", "From the ring to the worker"},
+    {Stage::level, "level", "Levelling of a scan"},
+    {Stage::cut, "cut", "Convex Cut of a scan"},
+    {Stage::publish, "publish", "DDS write of the structure"},
+    {Stage::latency, "latency", "From a scan's last firing to the end of its DDS write"},
+    {Stage::jitter, "jitter", "How far the latency was from worker.latency_ms"},
+}};
+static_assert([] {
+  for (std::size_t i = 0; i < kStages.size(); ++i) {
+    if (static_cast<std::size_t>(kStages[i].stage) != i) return false;
+  }
+  return true;
+}());
+
+// Each histogram is written by the thread named above, and readable from any.
+class StageHistograms {
+ public:
+  void record(Stage stage, Duration duration) noexcept {
+    histograms_[static_cast<std::size_t>(stage)].value.record(duration);
+  }
+  [[nodiscard]] const LatencyHistogram& of(Stage stage) const noexcept {
+    return histograms_[static_cast<std::size_t>(stage)].value;
+  }
+
+ private:
+  // What different threads write is on different cache lines.
+  struct alignas(kCacheLine) Padded {
+    LatencyHistogram value;
+  };
+  std::array<Padded, kStages.size()> histograms_;
+};
+
+}  // namespace convexcut::daemon
