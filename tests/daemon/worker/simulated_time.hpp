@@ -96,7 +96,8 @@ class SimulatedWorker {
   void run(Duration span, const PipelineOptions& options) {
     span_ = span;
     begin_ = clock.steady_now();
-    Worker simulated(options, {.reduce_effort = false}, clock, returns, samples, results);
+    Worker simulated(options, {.reduce_effort = false}, clock, returns, samples, angles,
+                     results);
     worker = &simulated;
     simulated.run(stop, lidar_ended, imu_ended);
     counters = {simulated.counters().empty_results.value(),
@@ -159,6 +160,7 @@ class SimulatedWorker {
   std::atomic<bool> imu_ended{true};
   SpscRing<ReturnBatch> returns{2048};
   SpscRing<ImuSample> samples{16};
+  SpscRing<EncoderSample> angles{16};
   ResultRing results{4};
   Clock::Steady::time_point begin_{};
   Duration span_{};
