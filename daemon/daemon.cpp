@@ -66,7 +66,8 @@ Daemon::Daemon(const DaemonOptions& options)
                                            worker_options(options.config.worker), inputs_->clock(),
                                            rings_.lidar, rings_.imu, rings_.encoder, results_);
                            })),
-      participant_(options.config.dds),
+      participant_(
+          realtime_.as(ThreadRole::transport, [&] { return Participant(options.config.dds); })),
       scans_(participant_, options.config.dds, inputs_->clock(), results_,
              [this](ScanStatus& status) { complete(status); }),
       imus_(participant_, options.config.dds, rings_.imu_publish, rings_.imu_publish_filled) {

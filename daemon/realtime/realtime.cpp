@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/realtime/realtime.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -155,6 +156,8 @@ int Realtime::priority(ThreadRole role) const noexcept {
       return static_cast<int>(settings_.worker_priority);
     case ThreadRole::publish:
       return static_cast<int>(settings_.publish_priority);
+    case ThreadRole::transport:
+      return static_cast<int>(std::max(settings_.publish_priority - 1, 1U));
     case ThreadRole::other:
       return 0;
   }
@@ -170,6 +173,7 @@ const std::string& Realtime::cpus(ThreadRole role) const noexcept {
       return settings_.worker_cpus;
     case ThreadRole::publish:
       return settings_.publish_cpus;
+    case ThreadRole::transport:
     case ThreadRole::other:
       return all;
   }

@@ -44,7 +44,8 @@ std::optional<ThreadUsage> parse_thread_usage(std::string_view stat,
     if (field == kMajorFaults) usage.major_faults = value;
     if (field >= kUserTime) ticks += value;
   }
-  usage.cpu_time = Duration{std::chrono::seconds{1}} * static_cast<Duration::rep>(ticks) / ticks_per_second;
+  usage.cpu_time =
+      Duration{std::chrono::seconds{1}} * static_cast<Duration::rep>(ticks) / ticks_per_second;
   return usage;
 }
 

@@ -68,6 +68,7 @@ TEST(Realtime, ThreadsHaveThePrioritiesOfTheirRoles) {
     EXPECT_EQ(worker.cpus, 1);
     EXPECT_EQ(of_a_thread(realtime, ThreadRole::receive).priority, 80);
     EXPECT_EQ(of_a_thread(realtime, ThreadRole::publish).priority, 60);
+    EXPECT_EQ(of_a_thread(realtime, ThreadRole::transport).priority, 59);
     EXPECT_EQ(of_a_thread(realtime, ThreadRole::other).policy, SCHED_OTHER);
   });
 }
