@@ -56,8 +56,7 @@ std::uint32_t baud_of(const termios& settings) noexcept {
 
 int SerialPort::open(const std::string& device, std::uint32_t baud) noexcept {
   close();
-  fd_ = live::FileDescriptor(
-      ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));  // NOLINT(*-vararg)
+  fd_ = live::FileDescriptor(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd_) return errno;
   const int error = set_up(baud);
   if (error != 0) close();
