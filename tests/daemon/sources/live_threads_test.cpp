@@ -33,13 +33,14 @@ class CountingSink final : public Sink<Sample> {
 TEST(LiveThreads, EverythingIsReadableWhileReceiveThreadsRun) {
   CountingSink<ReturnBatch> returns;
   CountingSink<ImuSample> samples;
+  NullSink<EncoderSample> angles;
   replay::EmulatedImu imu;
   config::Config config;
   config.lidar.data_port = test::free_udp_port();
   config.lidar.position_port = test::free_udp_port();
   config.imu.device = imu.terminal().path();
   config.imu.configure = true;
-  LiveSources live(config, returns, samples);
+  LiveSources live(config, returns, samples, angles);
 
   std::atomic<bool> stop{false};
   std::vector<std::thread> receivers;
