@@ -61,10 +61,9 @@ Datagram DatagramBatch::operator[](std::size_t index) const noexcept {
   datagram.source = {ntohl(senders_[index].sin_addr.s_addr)};
   datagram.source_port = ntohs(senders_[index].sin_port);
   datagram.stamp = HostTime::min();
-  // CMSG_NXTHDR wants the header writable.
-  msghdr header = message.msg_hdr;
-  for (const cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
-       control = CMSG_NXTHDR(&header, const_cast<cmsghdr*>(control))) {
+  msghdr header = message.msg_hdr;  // CMSG_NXTHDR wants it writable
+  for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
+       control = CMSG_NXTHDR(&header, control)) {
     read_control(*control, datagram);
   }
   if (datagram.stamp == HostTime::min()) datagram.stamp = live::host_now();
