@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/convex_cut/lanes_in_front.hpp"
+
 #undef HWY_TARGET_INCLUDE
 // Highway includes this file again for each instruction set.
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
@@ -29,6 +31,41 @@ constexpr float kOffsetErrorPerExtent = 4e-7F;
 
 constexpr float kFarAway = std::numeric_limits<float>::max();
 
+HWY_INLINE std::uint64_t to_bits(Mask mask) noexcept {
+  std::uint64_t bits = 0;
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Floats(), mask, bytes);
+  for (unsigned i = 8; i-- > 0;) bits = (bits << 8U) | bytes[i];
+  return bits;
+}
+
+// Moves the lanes of a mask to the front of any number of vectors.
+class Compressor {
+ public:
+#if HWY_TARGET == HWY_AVX2
+  // Highway 1.0's own table is copied to the stack at every use by GCC 12: four times as slow.
+  HWY_INLINE explicit Compressor(Mask mask) noexcept
+      : order_(
+            hn::IndicesFromVec(Floats(), hn::Load(Words(), kLanesInFront[to_bits(mask)].data()))) {}
+  HWY_INLINE Float operator()(Float v) const noexcept { return hn::TableLookupLanes(v, order_); }
+  HWY_INLINE Word operator()(Word v) const noexcept {
+    return hn::BitCast(Words(), (*this)(hn::BitCast(Floats(), v)));
+  }
+
+ private:
+  decltype(hn::IndicesFromVec(Floats(), Word())) order_;
+#else
+  HWY_INLINE explicit Compressor(Mask mask) noexcept : mask_(mask) {}
+  HWY_INLINE Float operator()(Float v) const noexcept { return hn::Compress(v, mask_); }
+  HWY_INLINE Word operator()(Word v) const noexcept {
+    return hn::Compress(v, hn::RebindMask(Words(), mask_));
+  }
+
+ private:
+  Mask mask_;
+#endif
+};
+
 // The lanes whose |v| is nearer to half_width_m than float can tell: the reference's expression.
 HWY_NOINLINE std::uint64_t decide_exactly(const CloudView& sorted, std::size_t begin,
                                           std::uint64_t inside, std::uint64_t undecided,
@@ -40,14 +77,6 @@ HWY_NOINLINE std::uint64_t decide_exactly(const CloudView& sorted, std::size_t b
     inside = std::abs(v) < half_width_m ? inside | bit : inside & ~bit;
   }
   return inside;
-}
-
-HWY_INLINE std::uint64_t to_bits(Mask mask) noexcept {
-  std::uint64_t bits = 0;
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(Floats(), mask, bytes);
-  for (unsigned i = 8; i-- > 0;) bits = (bits << 8U) | bytes[i];
-  return bits;
 }
 
 HWY_INLINE Mask from_bits(std::uint64_t bits) noexcept {
@@ -94,9 +123,10 @@ std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
       const Word mark = hn::ShiftLeft<31>(hn::PromoteTo(dw, hn::LoadU(db, marks.data() + i)));
       const Word position =
           hn::Or(hn::Add(lane_numbers, hn::Set(dw, static_cast<std::uint32_t>(i))), mark);
-      hn::StoreU(hn::Compress(u, inside), df, members.u + count);
-      hn::StoreU(hn::Compress(hn::LoadU(df, zs + i), inside), df, members.z + count);
-      hn::StoreU(hn::Compress(position, hn::RebindMask(dw, inside)), dw, members.position + count);
+      const Compressor compress(inside);
+      hn::StoreU(compress(u), df, members.u + count);
+      hn::StoreU(compress(hn::LoadU(df, zs + i)), df, members.z + count);
+      hn::StoreU(compress(position), dw, members.position + count);
       count += hn::CountTrue(df, inside);
     }
   }
@@ -270,10 +300,10 @@ std::size_t depths(const EdgeColumns& edges, const SliceColumns& members, std::s
           hn::And(hn::Le(value, limit), hn::FirstN(df, count > i ? count - i : 0));
       if (!hn::AllFalse(df, is_shallow)) {
         const Word position = hn::AndNot(marked, hn::LoadU(dw, members.position + i));
-        hn::StoreU(hn::Compress(u, is_shallow), df, shallow.u + found);
-        hn::StoreU(hn::Compress(z, is_shallow), df, shallow.z + found);
-        hn::StoreU(hn::Compress(position, hn::RebindMask(dw, is_shallow)), dw,
-                   shallow.position + found);
+        const Compressor compress(is_shallow);
+        hn::StoreU(compress(u), df, shallow.u + found);
+        hn::StoreU(compress(z), df, shallow.z + found);
+        hn::StoreU(compress(position), dw, shallow.position + found);
         found += hn::CountTrue(df, is_shallow);
       }
     };
@@ -299,9 +329,10 @@ std::size_t drop_deep(const float* depth, float limit_m, const SliceColumns& mem
         hn::And(hn::Le(hn::LoadU(df, depth + i), limit), hn::FirstN(df, count - i));
     const Mask stays =
         hn::And(shallow, hn::RebindMask(df, hn::Eq(hn::And(position, marked), hn::Zero(dw))));
-    hn::StoreU(hn::Compress(hn::LoadU(df, members.u + i), stays), df, members.u + left);
-    hn::StoreU(hn::Compress(hn::LoadU(df, members.z + i), stays), df, members.z + left);
-    hn::StoreU(hn::Compress(position, hn::RebindMask(dw, stays)), dw, members.position + left);
+    const Compressor compress(stays);
+    hn::StoreU(compress(hn::LoadU(df, members.u + i)), df, members.u + left);
+    hn::StoreU(compress(hn::LoadU(df, members.z + i)), df, members.z + left);
+    hn::StoreU(compress(position), dw, members.position + left);
     left += hn::CountTrue(df, stays);
   }
   return left;
@@ -328,12 +359,11 @@ std::size_t mark_near(const EdgeColumns& edges, const SliceColumns& members, std
       const Mask is_near = hn::And(hn::Lt(depth, surely), present);
       const Mask is_doubtful = hn::AndNot(is_near, hn::And(hn::Le(depth, possibly), present));
       const Word position = hn::AndNot(marked, p);
-      hn::Store(hn::Compress(position, hn::RebindMask(dw, is_near)), dw, near);
+      hn::Store(Compressor(is_near)(position), dw, near);
       const std::size_t near_count = hn::CountTrue(df, is_near);
       for (std::size_t k = 0; k < near_count; ++k) marks[near[k]] = 1;
       if (HWY_UNLIKELY(!hn::AllFalse(df, is_doubtful))) {
-        hn::StoreU(hn::Compress(position, hn::RebindMask(dw, is_doubtful)), dw,
-                   members.position + doubtful_count);
+        hn::StoreU(Compressor(is_doubtful)(position), dw, members.position + doubtful_count);
         doubtful_count += hn::CountTrue(df, is_doubtful);
       }
     };
