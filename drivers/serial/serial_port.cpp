@@ -115,7 +115,10 @@ int SerialPort::set_baud(std::uint32_t baud) noexcept {
   termios settings{};
   if (!speed || ::tcgetattr(fd_.get(), &settings) != 0) return EINVAL;
   if (::cfsetspeed(&settings, *speed) != 0) return EINVAL;
-  return ::tcsetattr(fd_.get(), TCSANOW, &settings) == 0 ? 0 : errno;
+  if (::tcsetattr(fd_.get(), TCSANOW, &settings) != 0) return errno;
+  // It succeeds when any of the settings could be made.
+  if (::tcgetattr(fd_.get(), &settings) != 0) return errno;
+  return baud_of(settings) == baud ? 0 : EINVAL;
 }
 
 }  // namespace convexcut::serial

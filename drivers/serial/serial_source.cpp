@@ -100,10 +100,9 @@ void SerialSource::send(wire::Bytes frame) noexcept {
   if (error != 0 && error != EAGAIN && error != EINTR) line_error_ = error;
 }
 
-void SerialSource::set_baud(std::uint32_t baud) noexcept {
-  // A rate that the adapter does not have is one where nobody answers.
-  static_cast<void>(port_.set_baud(baud));
+bool SerialSource::set_baud(std::uint32_t baud) noexcept {
   driver_.set_baud(baud);
+  return port_.set_baud(baud) == 0;
 }
 
 }  // namespace convexcut::serial

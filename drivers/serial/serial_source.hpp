@@ -73,7 +73,7 @@ class SerialSource final : public live::LiveSource, private xsens::MtLine {
   void deliver(wire::Bytes bytes, HostTime stamp) noexcept;
   // Of the device's configuration.
   void send(wire::Bytes frame) noexcept override;
-  void set_baud(std::uint32_t baud) noexcept override;
+  bool set_baud(std::uint32_t baud) noexcept override;
 
   SerialSourceOptions options_;
   xsens::ImuDriver& driver_;

@@ -291,7 +291,10 @@ void MtConfiguration::after_identity() noexcept {
   const bool other = options_.baud != 0 && options_.set_baud != 0 && baud() != options_.set_baud;
   if (other && !baud_tried_) {
     baud_tried_ = true;
-    return enter(Step::set_baud);
+    // A device at a rate that the host's end does not have would be lost.
+    const bool host_can = line_.set_baud(options_.set_baud);
+    line_.set_baud(baud());
+    if (host_can) return enter(Step::set_baud);
   }
   if (rate_hz_ < options_.rate_hz) counters_.slower_lines.add();
   enter(Step::read_outputs);

@@ -35,7 +35,8 @@ class MtLine {
   virtual ~MtLine() = default;
 
   virtual void send(wire::Bytes frame) noexcept = 0;
-  virtual void set_baud(std::uint32_t baud) noexcept = 0;
+  // False when it does not have the rate; it is then at any.
+  virtual bool set_baud(std::uint32_t baud) noexcept = 0;
 };
 
 enum class MtState : std::uint8_t {

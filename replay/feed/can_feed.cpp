@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/feed/can_feed.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -10,12 +8,9 @@
 #include <utility>
 
 #include <linux/can.h>
-#include <linux/can/raw.h>
-#include <net/if.h>
-#include <sys/ioctl.h>
-#include <sys/socket.h>
+#include <unistd.h>
 
-#include "drivers/can/socketcan_layout.hpp"
+#include "drivers/socketcan/can_socket.hpp"
 
 namespace convexcut::replay {
 
@@ -25,27 +20,17 @@ CanFeed::CanFeed(CanFeedOptions options, const Faults& faults, std::uint64_t see
   open_socket();
 }
 
+// Without filters nothing is received.
 void CanFeed::open_socket() {
-  const auto fail = [this](const std::string& what) {
-    throw std::runtime_error("--can-interface " + options_.interface + ": " + what + ": " +
-                             std::strerror(errno));
-  };
-  socket_ = live::FileDescriptor(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
-  if (!socket_) fail("this kernel has no CAN (expected the module can_raw)");
-  ifreq request{};
-  const std::size_t length = std::min(options_.interface.size(), sizeof(request.ifr_name) - 1);
-  std::memcpy(request.ifr_name, options_.interface.data(), length);
-  if (::ioctl(socket_.get(), SIOCGIFINDEX, &request) != 0) {
-    fail("expected a CAN interface (sudo ip link add dev vcan0 type vcan)");
-  }
-  const int on = 1;
-  ::setsockopt(socket_.get(), SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof(on));
-  sockaddr_can address{};
-  address.can_family = AF_CAN;
-  address.can_ifindex = request.ifr_ifindex;
-  if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-    fail("expected a CAN interface");
-  }
+  socketcan::OpenedSocket opened = socketcan::open_can_socket(options_.interface, {});
+  socket_ = std::move(opened.socket);
+  if (socket_) return;
+  std::string hint;
+  if (opened.error == EAFNOSUPPORT) hint = ": this kernel has no CAN (expected the module can_raw)";
+  if (opened.error == ENODEV) hint = ": expected a CAN interface (ip link add vcan0 type vcan)";
+  if (opened.error == ENETDOWN) hint = ": expected it to be up (ip link set vcan0 up)";
+  throw std::runtime_error("--can-interface " + options_.interface + ": " +
+                           std::strerror(opened.error) + hint);
 }
 
 void CanFeed::rewind() {

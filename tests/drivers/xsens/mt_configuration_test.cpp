@@ -60,6 +60,7 @@ class Rig final : private MtLine {
   Duration latency = milliseconds{5};
   bool connected = true;  // to the host's ears
   bool measures = true;
+  std::uint32_t fastest = 4'000'000;  // rate that the host's end has
 
  private:
   struct Coming {
@@ -74,7 +75,10 @@ class Rig final : private MtLine {
       coming_.push_back({now_ + latency, std::move(reply)});
     }
   }
-  void set_baud(std::uint32_t baud) noexcept override { baud_ = baud; }
+  bool set_baud(std::uint32_t baud) noexcept override {
+    baud_ = baud;
+    return baud <= fastest;
+  }
 
   void step() {
     now_ += milliseconds{10};
@@ -259,6 +263,16 @@ TEST(MtConfiguration, DeviceThatIsAtTheNewRateAlreadyIsFoundThere) {
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   EXPECT_EQ(rig.configuration.baud(), 460800U);
   EXPECT_EQ(rig.sent(MessageId::baudrate), 0);
+}
+
+TEST(MtConfiguration, DeviceIsNotSetToARateThatTheHostDoesNotHave) {
+  Rig rig(kFaster);
+  rig.fastest = 230400;
+  rig.open();
+  ASSERT_TRUE(rig.becomes(MtState::measuring));
+  EXPECT_EQ(rig.device().baud(), 115200U);
+  EXPECT_EQ(rig.sent(MessageId::baudrate), 0);
+  EXPECT_EQ(rig.device().outputs(), outputs(100));
 }
 
 TEST(MtConfiguration, RateThatTheLineCarriesServesWhereItsOwnCannotBeSet) {
