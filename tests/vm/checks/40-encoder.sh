@@ -21,6 +21,6 @@ kill $player $replay_lidar
 wait $player $replay_lidar 2>/dev/null
 stop_daemon
 check "encoder: the daemon ends with status 0" [ $stopped = 0 ]
-kill -INT $watch
+kill -TERM $watch
 wait $watch
 ip link del dev vcan0
