@@ -6,19 +6,11 @@
 #include "drivers/live/host_clock.hpp"
 
 namespace convexcut::live {
-namespace {
-
-// CMSG_NXTHDR takes a pointer to what it only reads.
-[[nodiscard]] msghdr* as_cmsg_argument(const msghdr& message) noexcept {
-  return const_cast<msghdr*>(&message);
-}
-
-}  // namespace
 
 Ancillary parse_ancillary(const msghdr& message) noexcept {
   Ancillary found;
-  for (const cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr;
-       part = CMSG_NXTHDR(as_cmsg_argument(message), const_cast<cmsghdr*>(part))) {
+  msghdr header = message;  // CMSG_NXTHDR wants it writable
+  for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
     if (part->cmsg_level != SOL_SOCKET) continue;
     if (part->cmsg_type == SCM_TIMESTAMPNS && part->cmsg_len == CMSG_LEN(sizeof(timespec))) {
       timespec time{};

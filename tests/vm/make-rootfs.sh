@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the disk image of the test guest, build/vm/rootfs.ext4: Debian 12 with systemd, the CAN tools and the
-# libraries that our programs link, nothing else.
+# libraries that the programs of the release build link, nothing else.
 #   tests/vm/make-rootfs.sh [--force]
 # It is made once (about a minute) and kept: its key is a hash of what it is made from. --force makes it anew,
 # which is how newer versions of the packages come in. Needs root, or sudo; see install-packages.sh vm.
@@ -9,8 +9,11 @@ cd "$(dirname "$0")"
 cache=$(cd ../.. && pwd)/build/vm
 mkdir -p "$cache"
 
-packages=(systemd systemd-sysv udev dbus kmod iproute2 procps can-utils
-  libstdc++6 libddsc0debian libpcap0.8 libpng16-16 libtomlplusplus3)
+packages=(systemd systemd-sysv udev dbus kmod iproute2 procps can-utils)
+# Those of the libraries that our programs were linked with.
+for library in $(objdump -p ../../build/release/bin/convexcut{,d} | awk '$1 == "NEEDED" { print $2 }' | sort -u); do
+  packages+=("$(dpkg -S "*/$library" | head -n 1 | cut -d: -f1)")
+done
 # What the guest has no use for and would wait for at its start.
 masked=(getty@tty1.service serial-getty@ttyS0.service console-getty.service
   apt-daily.timer apt-daily-upgrade.timer dpkg-db-backup.timer e2scrub_all.timer e2scrub_reap.service fstrim.timer
@@ -25,7 +28,7 @@ kernel=$(dpkg-query -W -f '${Version}' user-mode-linux)
 key=$({
   cat make-rootfs.sh
   find guest -type f -print0 | sort -z | xargs -0 cat
-  echo "$kernel"
+  echo "$kernel ${packages[*]}"
 } | sha256sum | cut -c1-16)
 if [ "${1:-}" != --force ] && [ -s "$cache/rootfs.ext4" ] && [ "$(cat "$cache/key" 2>/dev/null)" = "$key" ]; then
   echo "rootfs: kept ($key)"
