@@ -13,11 +13,27 @@ namespace {
 // A receive thread looks at the stop flag this often.
 constexpr Duration kLongestWait = std::chrono::milliseconds{50};
 
+std::unique_ptr<recorder::Recorder> make_recorder(const config::Record& record) {
+  if (record.directory.empty()) return nullptr;
+  return std::make_unique<recorder::Recorder>(recorder_options(record),
+                                              [](bool problem, const std::string& line) {
+                                                if (problem) {
+                                                  log::error("recording", {{"problem", line}});
+                                                } else {
+                                                  log::info("recording", {{"note", line}});
+                                                }
+                                              });
+}
+
 }  // namespace
 
 LiveInputs::LiveInputs(const config::Config& config, InputRings& rings,
                        const std::atomic<bool>& stop)
-    : stop_(stop), clock_(stop), sources_(config, rings.returns, rings.samples, rings.angles) {}
+    : stop_(stop),
+      clock_(stop),
+      recorder_(make_recorder(config.record)),
+      sources_(config, rings.returns, rings.samples, rings.angles,
+               recorder_ ? taps_of(*recorder_) : LiveTaps{}) {}
 
 std::vector<InputThread> LiveInputs::start() {
   std::vector<InputThread> threads;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,15 @@
 #include "daemon/inputs/input_rings.hpp"
 #include "daemon/inputs/inputs.hpp"
 #include "daemon/sources/live_sources.hpp"
+#include "daemon/sources/recording_setup.hpp"
 
 namespace convexcut::daemon {
 
-// The sensors themselves, one receive thread each, on the host's own clock.
+// The sensors themselves, one receive thread each, on the host's own clock; recorded when the
+// configuration asks for it.
 class LiveInputs final : public Inputs {
  public:
-  // Throws what LiveSources throws.
+  // Throws what LiveSources and Recorder throw.
   LiveInputs(const config::Config& config, InputRings& rings, const std::atomic<bool>& stop);
 
   [[nodiscard]] std::vector<InputThread> start() override;
@@ -29,6 +32,7 @@ class LiveInputs final : public Inputs {
  private:
   const std::atomic<bool>& stop_;
   LiveClock clock_;
+  std::unique_ptr<recorder::Recorder> recorder_;  // above what it is a tap of; null: none
   LiveSources sources_;
   std::vector<std::string> warnings_;  // that have been logged and still hold
 };

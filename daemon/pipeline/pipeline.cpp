@@ -28,7 +28,9 @@ Pipeline::Pipeline(const PipelineOptions& options)
       track_(kOrientations, options.orientation_max_age),
       stage_track_(kStageAngles, options.stage_max_age),
       engine_(options.convex_cut, options.max_returns_per_scan, options.threads) {
-  for (Scan& scan : waiting_) reserve(scan, options.max_returns_per_scan, kMaxFiringsPerScan);
+  for (WaitingScan& waiting : waiting_) {
+    reserve(waiting.scan, options.max_returns_per_scan, kMaxFiringsPerScan);
+  }
 }
 
 void Pipeline::on_lidar(const ReturnBatch& batch) noexcept {
@@ -78,20 +80,22 @@ void Pipeline::wait_for_orientation(Scan& scan) noexcept {
     ++scans_dropped_;
     return;
   }
-  std::swap(scan, waiting_[(first_waiting_ + waiting_count_) % kMaxWaiting]);
+  WaitingScan& waiting = waiting_[(first_waiting_ + waiting_count_) % kMaxWaiting];
+  std::swap(scan, waiting.scan);
+  waiting.stamp = to_host(waiting.scan.first_firing);
   ++waiting_count_;
 }
 
-bool Pipeline::ready(const Scan& scan, HostTime now) const noexcept {
-  const HostTime last = to_host(scan.last_firing);
+bool Pipeline::ready(const WaitingScan& waiting, HostTime now) const noexcept {
+  const HostTime last = waiting.end();
   const bool imu_is_there = options_.fixed_mount || imu_ended_ || reaches(track_, last);
   const bool stage_is_there =
       options_.stage_use == StageUse::none || encoder_ended_ || reaches(stage_track_, last);
   return (imu_is_there && stage_is_there) || now >= last + options_.orientation_wait;
 }
 
-void Pipeline::level_scan(const Scan& scan, LevelledScan& out) noexcept {
-  const HostTime stamp = to_host(scan.first_firing);
+void Pipeline::level_scan(const WaitingScan& waiting, LevelledScan& out) noexcept {
+  const auto& [scan, stamp] = waiting;
   if (options_.fixed_mount && options_.stage_use == StageUse::none) {
     level(scan, stamp, options_.q_level_from_lidar, out, firing_stride(effort_));
   } else {
@@ -119,16 +123,16 @@ std::optional<Quaternion> Pipeline::lidar_orientation(HostTime time) const noexc
 
 bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
   if (waiting_count_ == 0) return false;
-  const Scan& scan = waiting_[first_waiting_];
-  if (!ready(scan, now)) return false;
+  const WaitingScan& waiting = waiting_[first_waiting_];
+  if (!ready(waiting, now)) return false;
 
-  level_scan(scan, out);
+  level_scan(waiting, out);
   // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
   // ever, every point would keep the label `other`.
   static_cast<void>(engine_.label(out.cloud(), out.label, plane_stride(effort_)));
   out.structure_points = 0;
   for (const Label label : out.label) out.structure_points += label == Label::structure ? 1U : 0U;
-  scan_period_ = period_after(scan);
+  scan_period_ = period_after(waiting.scan);
   pop_waiting();
   return true;
 }
@@ -136,7 +140,7 @@ bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
 std::size_t Pipeline::drop_superseded(HostTime now, HostTime oldest_end) noexcept {
   std::size_t dropped = 0;
   while (waiting_count_ > 0) {
-    const bool too_old = to_host(waiting_[first_waiting_].last_firing) < oldest_end;
+    const bool too_old = waiting_[first_waiting_].end() < oldest_end;
     const bool newer_ready =
         waiting_count_ > 1 && ready(waiting_[(first_waiting_ + 1) % kMaxWaiting], now);
     if (!too_old && !newer_ready) break;

@@ -133,11 +133,22 @@ class Pipeline {
   }
 
  private:
+  // A scan's place in the host's time is fixed when it is cut: it depends on the lidar's packets up
+  // to there alone, and not on how far the caller had come when the scan was ready.
+  struct WaitingScan {
+    Scan scan;
+    HostTime stamp{};  // of its first firing
+
+    [[nodiscard]] HostTime end() const noexcept {
+      return stamp + (scan.last_firing - scan.first_firing);
+    }
+  };
+
   void wait_for_orientation(Scan& scan) noexcept;
-  [[nodiscard]] bool ready(const Scan& scan, HostTime now) const noexcept;
+  [[nodiscard]] bool ready(const WaitingScan& waiting, HostTime now) const noexcept;
   [[nodiscard]] Duration period_after(const Scan& scan) const noexcept;
   void pop_waiting() noexcept;
-  void level_scan(const Scan& scan, LevelledScan& out) noexcept;
+  void level_scan(const WaitingScan& waiting, LevelledScan& out) noexcept;
   // Lidar → level; none: missing at that time.
   [[nodiscard]] std::optional<Quaternion> lidar_orientation(HostTime time) const noexcept;
 
@@ -151,7 +162,7 @@ class Pipeline {
   OrientationTrack stage_track_;
   ConvexCutEngine engine_;
 
-  std::array<Scan, kMaxWaiting> waiting_;  // a ring: first_waiting_ is the oldest
+  std::array<WaitingScan, kMaxWaiting> waiting_;  // a ring: first_waiting_ is the oldest
   std::size_t first_waiting_ = 0;
   std::size_t waiting_count_ = 0;
 

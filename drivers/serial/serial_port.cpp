@@ -10,6 +10,8 @@
 #include <linux/serial.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -28,6 +30,19 @@ std::optional<speed_t> speed_of(std::uint32_t baud) noexcept {
   return kSpeeds[static_cast<std::size_t>(found - kBauds.begin())];
 }
 
+// The lock holds against programs that ask for it too, whoever runs them; TIOCEXCL against all
+// others, except root's. A pseudo-terminal would keep the latter after a program that died.
+int lock(int fd) noexcept {
+  if (::flock(fd, LOCK_EX | LOCK_NB) != 0) return errno == EWOULDBLOCK ? EBUSY : errno;
+  constexpr unsigned kFirstPseudoTerminal = 136;  // major numbers, admin-guide/devices.txt
+  constexpr unsigned kLastPseudoTerminal = 143;
+  struct stat file {};
+  if (::fstat(fd, &file) != 0) return errno;
+  const unsigned type = major(file.st_rdev);
+  if (type < kFirstPseudoTerminal || type > kLastPseudoTerminal) ::ioctl(fd, TIOCEXCL);
+  return 0;
+}
+
 }  // namespace
 
 std::span<const std::uint32_t> supported_bauds() noexcept { return kBauds; }
@@ -41,8 +56,7 @@ std::uint32_t baud_of(const termios& settings) noexcept {
 
 int SerialPort::open(const std::string& device, std::uint32_t baud) noexcept {
   close();
-  fd_ = live::FileDescriptor(
-      ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));  // NOLINT(*-vararg)
+  fd_ = live::FileDescriptor(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd_) return errno;
   const int error = set_up(baud);
   if (error != 0) close();
@@ -56,15 +70,12 @@ void SerialPort::close() noexcept {
 
 int SerialPort::set_up(std::uint32_t baud) noexcept {
   const int fd = fd_.get();
-  // The lock holds against programs that ask for it too, whoever runs them; TIOCEXCL against all
-  // others, except root's.
-  if (::flock(fd, LOCK_EX | LOCK_NB) != 0) return errno == EWOULDBLOCK ? EBUSY : errno;
   termios settings{};
   if (::tcgetattr(fd, &settings) != 0) return errno;
-  ::ioctl(fd, TIOCEXCL);
+  if (const int error = lock(fd); error != 0) return error;
   ::cfmakeraw(&settings);
   settings.c_cflag |= CS8 | CLOCAL | CREAD;
-  settings.c_cflag &= ~static_cast<tcflag_t>(PARENB | CSTOPB | CRTSCTS | HUPCL);
+  settings.c_cflag &= ~static_cast<tcflag_t>(PARENB | CSTOPB | CRTSCTS);
   settings.c_cc[VMIN] = 1;  // with 0 a read of nothing would look like the end of the line
   settings.c_cc[VTIME] = 0;
   if (baud != 0) {

@@ -5,26 +5,23 @@
 #include <cerrno>
 #include <cstring>
 
+#include "drivers/live/ancillary.hpp"
 #include "drivers/live/host_clock.hpp"
 
 namespace convexcut::udp {
 namespace {
 
-template <class Value>
-Value value_of(const cmsghdr* header) noexcept {
-  Value value;
-  std::memcpy(&value, CMSG_DATA(header), sizeof(value));
-  return value;
-}
-
-void read_control(const cmsghdr& header, Datagram& datagram) noexcept {
-  if (header.cmsg_level == SOL_SOCKET && header.cmsg_type == SCM_TIMESTAMPNS) {
-    datagram.stamp = live::to_host_time(value_of<std::timespec>(&header));
-  } else if (header.cmsg_level == SOL_SOCKET && header.cmsg_type == SO_RXQ_OVFL) {
-    datagram.dropped_before_it = value_of<std::uint32_t>(&header);
-  } else if (header.cmsg_level == IPPROTO_IP && header.cmsg_type == IP_PKTINFO) {
-    datagram.destination = {ntohl(value_of<in_pktinfo>(&header).ipi_addr.s_addr)};
+// Where the datagram was sent to (IP_PKTINFO).
+[[nodiscard]] Ipv4Address destination_of(const msghdr& message) noexcept {
+  msghdr header = message;  // CMSG_NXTHDR wants it writable
+  for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
+       control = CMSG_NXTHDR(&header, control)) {
+    if (control->cmsg_level != IPPROTO_IP || control->cmsg_type != IP_PKTINFO) continue;
+    in_pktinfo info{};
+    std::memcpy(&info, CMSG_DATA(control), sizeof info);
+    return {ntohl(info.ipi_addr.s_addr)};
   }
+  return {};
 }
 
 }  // namespace
@@ -60,14 +57,10 @@ Datagram DatagramBatch::operator[](std::size_t index) const noexcept {
   datagram.truncated = (message.msg_hdr.msg_flags & MSG_TRUNC) != 0;
   datagram.source = {ntohl(senders_[index].sin_addr.s_addr)};
   datagram.source_port = ntohs(senders_[index].sin_port);
-  datagram.stamp = HostTime::min();
-  // CMSG_NXTHDR wants the header writable.
-  msghdr header = message.msg_hdr;
-  for (const cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
-       control = CMSG_NXTHDR(&header, const_cast<cmsghdr*>(control))) {
-    read_control(*control, datagram);
-  }
-  if (datagram.stamp == HostTime::min()) datagram.stamp = live::host_now();
+  datagram.destination = destination_of(message.msg_hdr);
+  const live::Ancillary ancillary = live::parse_ancillary(message.msg_hdr);
+  datagram.stamp = ancillary.stamp ? *ancillary.stamp : live::host_now();
+  datagram.dropped_before_it = ancillary.dropped;
   return datagram;
 }
 

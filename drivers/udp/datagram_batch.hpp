@@ -11,6 +11,7 @@
 
 #include "core/time.hpp"
 #include "drivers/ipv4_address.hpp"
+#include "drivers/live/ancillary.hpp"
 #include "drivers/wire.hpp"
 
 namespace convexcut::udp {
@@ -45,9 +46,7 @@ class DatagramBatch {
   [[nodiscard]] Datagram operator[](std::size_t index) const noexcept;
 
  private:
-  static constexpr std::size_t kControlSize = CMSG_SPACE(sizeof(timespec)) +
-                                              CMSG_SPACE(sizeof(in_pktinfo)) +
-                                              CMSG_SPACE(sizeof(std::uint32_t));
+  static constexpr std::size_t kControlSize = live::kAncillarySize + CMSG_SPACE(sizeof(in_pktinfo));
   struct alignas(cmsghdr) Control {
     std::array<std::byte, kControlSize> bytes;
   };

@@ -13,6 +13,8 @@
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 
+#include "drivers/live/ancillary.hpp"
+
 namespace convexcut::udp {
 namespace {
 
@@ -57,9 +59,7 @@ int UdpSocket::set_up(const UdpSocketOptions& options, std::uint16_t port) noexc
   constexpr int kOn = 1;
   constexpr int kOff = 0;
   const bool set = set_option(fd, SOL_SOCKET, SO_REUSEADDR, kOn) &&
-                   set_option(fd, SOL_SOCKET, SO_BROADCAST, kOn) &&
-                   set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, kOn) &&
-                   set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, kOn) &&
+                   set_option(fd, SOL_SOCKET, SO_BROADCAST, kOn) && live::request_ancillary(fd) &&
                    set_option(fd, IPPROTO_IP, IP_PKTINFO, kOn) &&
                    set_option(fd, IPPROTO_IP, IP_FREEBIND, kOn) &&
                    // Groups that other programs of this host have joined are none of ours.

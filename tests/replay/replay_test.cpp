@@ -53,7 +53,7 @@ class Replay : public RoomTest {
   // everything is here.
   void play(std::vector<std::string> arguments, bool with_imu = true) {
     if (!with_imu) config_.imu.device.clear();
-    live_.emplace(config_, returns_, samples_, daemon::LiveTaps{.lidar = &tap_});
+    live_.emplace(config_, returns_, samples_, angles_, daemon::LiveTaps{.lidar = &tap_});
     receive(std::chrono::milliseconds{1});
     const auto port = [](std::uint16_t number) { return std::to_string(number); };
     std::vector<std::string> all{
@@ -103,6 +103,7 @@ class Replay : public RoomTest {
   config::Config config_;
   velodyne::test::CollectingSink returns_;
   RecordingSink samples_;
+  daemon::NullSink<EncoderSample> angles_;
   ByteTap tap_;
   std::optional<daemon::LiveSources> live_;
   ProgramResult result_;

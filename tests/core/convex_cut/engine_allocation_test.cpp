@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A program of its own: it replaces the global operator new to count. Does not see allocations that
-// go to malloc directly; the engine's sources have none.
-#include <atomic>
-#include <cstdlib>
+// The engine allocates nothing once it is made. Does not see allocations that go to malloc
+// directly; the engine's sources have none.
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -11,38 +10,15 @@
 
 #include "core/convex_cut/engine.hpp"
 #include "tests/core/convex_cut/clouds.hpp"
-
-// NOLINTBEGIN(cppcoreguidelines-no-malloc): operator new is what it is replaced by here
-
-namespace {
-
-std::atomic<std::size_t> allocations{0};
-
-[[nodiscard]] void* counted(std::size_t size) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  void* const memory = std::malloc(size > 0 ? size : 1);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-
-// NOLINTEND(cppcoreguidelines-no-malloc)
+#include "tests/support/allocations.hpp"
 
 namespace convexcut {
 namespace {
 
 TEST(CountingAllocator, Counts) {
-  const std::size_t before = allocations.load();
+  const std::uint64_t before = test::allocations();
   ::operator delete(::operator new(100));
-  EXPECT_EQ(allocations.load(), before + 1);
+  EXPECT_EQ(test::allocations(), before + 1);
 }
 
 class EngineAllocation : public testing::TestWithParam<unsigned> {};
@@ -53,9 +29,9 @@ TEST_P(EngineAllocation, LabelAllocatesNothing) {
     test::Random random(points);
     const test::Cloud cloud = test::furnished_room(random, points);
     std::vector<Label> labels(points);
-    const std::size_t before = allocations.load();
+    const std::uint64_t before = test::allocations();
     const CutStatus status = engine.label(cloud.view(), labels);
-    EXPECT_EQ(allocations.load() - before, 0U) << points;
+    EXPECT_EQ(test::allocations() - before, 0U) << points;
     EXPECT_EQ(status, CutStatus::ok);
   }
 }

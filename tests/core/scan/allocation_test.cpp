@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What runs in the worker allocates nothing once it is made. Counts the global operator new, so it
-// is a program of its own; it does not see memory that is mapped by other means.
-#include <atomic>
+// What runs in the worker allocates nothing once it is made. Does not see memory that is mapped by
+// other means than operator new.
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 #include <utility>
 #include <vector>
 
@@ -20,26 +17,7 @@
 #include "core/scan/packet_sequencer.hpp"
 #include "core/scan/scan_cutter.hpp"
 #include "tests/core/scan/synthetic_lidar.hpp"
-
-namespace {
-std::atomic<std::uint64_t> g_allocations{0};
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++g_allocations;
-  const auto align = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#include "tests/support/allocations.hpp"
 
 namespace convexcut {
 namespace {
@@ -47,9 +25,9 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(Allocation, CounterSeesAnAllocation) {
-  const std::uint64_t before = g_allocations;
+  const std::uint64_t before = test::allocations();
   std::vector<int> some(100);
-  EXPECT_GT(g_allocations, before);
+  EXPECT_GT(test::allocations(), before);
   EXPECT_EQ(some.size(), 100U);
 }
 
@@ -76,7 +54,7 @@ TEST(Allocation, FromDatagramToLevelledScanThereIsNone) {
     cutter.push(batch, first_firing, on_scan);
   };
 
-  const std::uint64_t before = g_allocations;
+  const std::uint64_t before = test::allocations();
   for (std::int64_t n = 0; n < 900; ++n) {
     const std::int64_t packet = n ^ 1;  // every pair swapped
     const test::TimedBatch timed = lidar.packet(packet);
@@ -90,7 +68,7 @@ TEST(Allocation, FromDatagramToLevelledScanThereIsNone) {
   }
   sequencer.flush(into_cutter);
   cutter.finish(on_scan);
-  EXPECT_EQ(g_allocations, before);
+  EXPECT_EQ(test::allocations(), before);
   EXPECT_GT(points, 300'000U);
 }
 

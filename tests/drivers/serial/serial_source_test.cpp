@@ -15,6 +15,7 @@
 #include "replay/emulator/pseudo_terminal.hpp"
 #include "tests/drivers/xsens/frames.hpp"
 #include "tests/drivers/xsens/recording_sink.hpp"
+#include "tests/support/in_child.hpp"
 #include "tests/support/recordings.hpp"
 
 namespace convexcut::serial {
@@ -196,6 +197,16 @@ TEST(SerialPort, EveryRateOfTheListIsSet) {
     EXPECT_EQ(terminal.baud(), baud);
   }
   EXPECT_EQ(port.set_baud(76800), EINVAL);
+}
+
+TEST(SerialPort, LineThatWasClosedIsFreeAlsoForThoseWithoutPrivileges) {
+  convexcut::test::without_privileges([] {
+    const PseudoTerminal terminal;
+    for (int i = 0; i < 2; ++i) {
+      SerialPort port;
+      EXPECT_EQ(port.open(terminal.path(), 115200), 0);
+    }
+  });
 }
 
 TEST(SerialPort, RateThatTermiosDoesNotHaveIsRefused) {
