@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -13,6 +14,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include <malloc.h>
 
@@ -24,9 +26,11 @@ namespace {
 
 // Locked memory includes the whole stack of every thread: the default of 8 MiB each would be more
 // than all the rest. The deepest frames, those of DDS, need a tenth of this.
-constexpr std::size_t kStackBytes = std::size_t{512} * 1024;
+[[maybe_unused]] constexpr std::size_t kStackBytes = std::size_t{512} * 1024;
 // Of the stack, touched at the start where memory cannot be locked. No frame of ours is deeper.
 constexpr std::size_t kPrefaultBytes = std::size_t{128} * 1024;
+
+constexpr std::size_t kPageBytes = 4096;
 
 constexpr const char* kFullStop =
     "; the daemon runs on and may be late when the host is busy (realtime.enabled = \"off\" for no "
@@ -68,11 +72,13 @@ constexpr std::size_t kLockedBytes = std::size_t{512} * 1024 * 1024;
 void keep_memory() noexcept {
   ::mallopt(M_TRIM_THRESHOLD, -1);
   ::mallopt(M_MMAP_MAX, 0);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these need far more
   pthread_attr_t attributes;
   if (::pthread_attr_init(&attributes) != 0) return;
   ::pthread_attr_setstacksize(&attributes, kStackBytes);
   ::pthread_setattr_default_np(&attributes);
   ::pthread_attr_destroy(&attributes);
+#endif
 }
 
 }  // namespace
@@ -81,6 +87,7 @@ Realtime::Realtime(const config::RealtimeSettings& settings) : settings_(setting
   check_cpus();
   if (settings_.enabled == config::Realtime::off) return;
   keep_memory();
+  heap_begin_ = ::sbrk(0);
   try_scheduling();
   if (settings_.lock_memory) lock_memory();
 }
@@ -121,6 +128,17 @@ void Realtime::lock_memory() {
   refuse("locking memory (mlockall) is refused: " + std::string(std::strerror(errno)) +
          ": allow it with LimitMEMLOCK=infinity in the unit, `ulimit -l unlimited`, or `setcap "
          "cap_sys_nice,cap_ipc_lock+ep` on convexcutd");
+}
+
+// All of it is one range: nothing is mapped apart (see keep_memory), and nothing is given back.
+void Realtime::populate_memory() const noexcept {
+  if (memory_locked_ || heap_begin_ == nullptr) return;
+  const auto begin = (reinterpret_cast<std::uintptr_t>(heap_begin_) + kPageBytes - 1) / kPageBytes;
+  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0)) / kPageBytes;
+  if (end <= begin) return;
+  // Kernels before 5.14 refuse: then the pages come with their first use.
+  ::madvise(reinterpret_cast<void*>(begin * kPageBytes), (end - begin) * kPageBytes,
+            MADV_POPULATE_WRITE);
 }
 
 void Realtime::refuse(std::string problem) {

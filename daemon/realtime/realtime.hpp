@@ -28,6 +28,10 @@ class Realtime {
   [[nodiscard]] bool scheduled() const noexcept { return scheduled_; }
   [[nodiscard]] bool memory_locked() const noexcept { return memory_locked_; }
 
+  // When everything is made and no thread has started yet: what was taken from the heap since the
+  // construction gets its pages, where they are not there because memory is locked.
+  void populate_memory() const noexcept;
+
   // The calling thread takes up a role: name (up to 15 characters), scheduling, CPUs, and a stack
   // that is there. As its first thing.
   void enter(ThreadRole role, const char* name) const noexcept;
@@ -64,6 +68,7 @@ class Realtime {
   config::RealtimeSettings settings_;
   bool scheduled_ = false;
   bool memory_locked_ = false;
+  void* heap_begin_ = nullptr;  // at construction
   std::vector<std::string> problems_;
 };
 
