@@ -83,7 +83,7 @@ void keep_memory() noexcept {
 
 }  // namespace
 
-Realtime::Realtime(const config::RealtimeSettings& settings) : settings_(settings) {
+Realtime::Realtime(config::RealtimeSettings settings) : settings_(std::move(settings)) {
   check_cpus();
   if (settings_.enabled == config::Realtime::off) return;
   keep_memory();
@@ -133,12 +133,13 @@ void Realtime::lock_memory() {
 // All of it is one range: nothing is mapped apart (see keep_memory), and nothing is given back.
 void Realtime::populate_memory() const noexcept {
   if (memory_locked_ || heap_begin_ == nullptr) return;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(heap_begin_) + kPageBytes - 1) / kPageBytes;
-  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0)) / kPageBytes;
-  if (end <= begin) return;
+  const std::size_t into_page = reinterpret_cast<std::uintptr_t>(heap_begin_) % kPageBytes;
+  std::byte* const begin =
+      static_cast<std::byte*>(heap_begin_) + (kPageBytes - into_page) % kPageBytes;
+  const std::ptrdiff_t bytes = static_cast<std::byte*>(::sbrk(0)) - begin;
+  if (bytes <= 0) return;
   // Kernels before 5.14 refuse: then the pages come with their first use.
-  ::madvise(reinterpret_cast<void*>(begin * kPageBytes), (end - begin) * kPageBytes,
-            MADV_POPULATE_WRITE);
+  ::madvise(begin, static_cast<std::size_t>(bytes), MADV_POPULATE_WRITE);
 }
 
 void Realtime::refuse(std::string problem) {

@@ -19,7 +19,7 @@ class Realtime {
   // Prepares the process; before it has other threads. Throws config::ConfigError when a CPU list
   // names none that is there, and std::runtime_error of one line when realtime.enabled is "on" and
   // not permitted.
-  explicit Realtime(const config::RealtimeSettings& settings);
+  explicit Realtime(config::RealtimeSettings settings);
 
   // One line each: what was asked for and refused, and what to do about it. The daemon then runs
   // on, and may be late when the host is busy.
