@@ -6,7 +6,7 @@ set -euo pipefail
 build=(build-essential cmake ninja-build pkg-config ca-certificates
   libpcap-dev libeigen3-dev libhwy-dev cyclonedds-dev cyclonedds-tools libtomlplusplus-dev libcli11-dev
   libpng-dev libgtest-dev libgmock-dev libbenchmark-dev libboost-dev)
-check=(clang clang-format clang-tidy clang-tools libclang-rt-14-dev llvm python3 tshark git iproute2 bc rt-tests stress-ng)
+check=(libqhull-dev libcgal-dev clang clang-format clang-tidy clang-tools libclang-rt-14-dev llvm python3 tshark git iproute2 bc rt-tests stress-ng)
 vm=(mmdebstrap e2fsprogs kmod user-mode-linux)
 
 wanted=()

@@ -8,14 +8,15 @@
 #include "core/convex_cut/shell_index.hpp"
 
 #undef HWY_TARGET_INCLUDE
+// Highway includes this file again for each instruction set.
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
 #define HWY_TARGET_INCLUDE "core/convex_cut/cloud_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Behind foreach_target.h.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace convexcut {
-namespace HWY_NAMESPACE {
+namespace convexcut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
@@ -102,8 +103,7 @@ void shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
   for (std::size_t k = 0; i + k < end; ++k) keys[i + k] = last[k];
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace convexcut
+}  // namespace convexcut::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

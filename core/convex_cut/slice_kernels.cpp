@@ -6,14 +6,15 @@
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
+// Highway includes this file again for each instruction set.
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
 #define HWY_TARGET_INCLUDE "core/convex_cut/slice_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Behind foreach_target.h.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace convexcut {
-namespace HWY_NAMESPACE {
+namespace convexcut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
@@ -344,8 +345,7 @@ std::size_t mark_near(const EdgeColumns& edges, const SliceColumns& members, std
   return doubtful_count;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace convexcut
+}  // namespace convexcut::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -50,7 +50,7 @@ class SliceWorker {
   void cut(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept;
   [[nodiscard]] Hull hull_of_members(const SlicingPlane& plane) noexcept;
   [[nodiscard]] Polygon outermost_polygon(const SlicingPlane& plane) noexcept;
-  [[nodiscard]] Polygon refined_polygon(const SlicingPlane& plane, std::size_t shallow) noexcept;
+  [[nodiscard]] Polygon refined_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept;
   [[nodiscard]] Polygon any_triangle(const SlicingPlane& plane) noexcept;
   [[nodiscard]] Polygon without_dents(std::size_t size) noexcept;
   [[nodiscard]] Hull exact_hull(const SlicingPlane& plane, std::size_t count) noexcept;
