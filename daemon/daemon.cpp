@@ -111,6 +111,7 @@ void Daemon::wait_for_reader() {
 }
 
 void Daemon::start_threads() {
+  realtime_.populate_memory();
   started_ = std::chrono::steady_clock::now();
   for (InputThread& thread : inputs_->start()) {
     start_thread(thread.name, thread.role, std::move(thread.body));

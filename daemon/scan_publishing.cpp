@@ -11,11 +11,6 @@ namespace {
 // The stop flag is looked at this often.
 constexpr Duration kLongestWait = std::chrono::milliseconds{50};
 
-// The write begins earlier by what writes take on average, so that it returns at the instant; a
-// slow write shall not draw the next ones forward by more than this.
-constexpr Duration kLongestLead = std::chrono::milliseconds{2};
-constexpr int kLeadMemory = 8;
-
 }  // namespace
 
 ScanPublishing::ScanPublishing(const Participant& participant, const config::Dds& settings,
@@ -50,11 +45,12 @@ void ScanPublishing::publish(const Result& result) {
   const bool late =
       clock_.paced() && scan.end != ScanEnd::no_data && Clock::Steady::now() > result.due;
   publisher_.prepare_structure(scan);
-  clock_.wait_until(result.due - lead_);
+  WriteLead& lead = scan.size() == 0 ? empty_lead_ : lead_;
+  clock_.wait_until(result.due - lead.value());
   const auto begun = Clock::Steady::now();
   const PublishStatus structure = publisher_.publish_prepared_structure();
   const auto written = Clock::Steady::now();
-  lead_ += (std::min<Duration>(written - begun, kLongestLead) - lead_) / kLeadMemory;
+  lead.observe(written - begun);
   if (clock_.paced() && !late && structure == PublishStatus::sent) {
     jitter_.record(std::chrono::abs(written - result.due));
   }

@@ -10,6 +10,7 @@
 #include "daemon/dds/publisher.hpp"
 #include "daemon/dds/scan_status.hpp"
 #include "daemon/result.hpp"
+#include "daemon/write_lead.hpp"
 
 namespace convexcut::daemon {
 
@@ -50,7 +51,8 @@ class ScanPublishing {
   std::function<void(ScanStatus&)> complete_;
   PublishingCounters counters_;
   LatencyHistogram jitter_;
-  Duration lead_{0};  // average time of a write
+  WriteLead lead_;
+  WriteLead empty_lead_;  // of results without points: their writes take next to nothing
 };
 
 }  // namespace convexcut::daemon

@@ -36,7 +36,7 @@ run() {
   # Losses and lateness under load are soak.sh's to judge; here only the figures count.
   LOG=$work/daemon.log "$here/soak.sh" "$lidar" "$imu" "$seconds" >"$work/soak" 2>"$work/soak.err" || true
   wait "$cyclic"
-  if [ -n "$pid" ]; then kill -TERM "$pid" && wait "$pid" || true; fi
+  if [ -n "$pid" ]; then kill -TERM "$pid" 2>/dev/null && wait "$pid" || true; fi
   local timing
   timing=$(grep '^info timing' "$work/daemon.log") || { cat "$work/soak.err" >&2; exit 1; }
   figure() { grep -oE " $1=[0-9]+" <<<"$timing" | cut -d= -f2; }
@@ -52,5 +52,5 @@ run() {
 }
 
 run idle
-run stress stress-ng --cpu 0 --vm 1 --vm-bytes 64M --io 1 --timeout $((seconds + 10))
+run stress stress-ng --cpu 0 --vm 1 --vm-bytes 64M --io 1 --timeout $((seconds + 30))
 exit "$failed"

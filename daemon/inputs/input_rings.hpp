@@ -47,8 +47,8 @@ struct InputRings {
   SpscRing<ReturnBatch> lidar{kLidarSlots};
   SpscRing<ImuSample> imu{kImuSlots};
   SpscRing<ImuSample> imu_publish{kImuSlots};
-  WakeUp imu_publish_filled;
   SpscRing<EncoderSample> encoder{kEncoderSlots};
+  WakeUp imu_publish_filled;
   // The producing ends, for the drivers.
   RingSink<ReturnBatch> returns{lidar};
   ImuTee samples{imu, imu_publish, imu_publish_filled};

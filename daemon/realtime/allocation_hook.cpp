@@ -14,13 +14,15 @@ using convexcut::daemon::note_allocation;
 
 extern "C" {
 
-// NOLINTBEGIN(bugprone-reserved-identifier): glibc's names
+// NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): glibc's names
 void* __libc_malloc(std::size_t size) noexcept;
 void* __libc_calloc(std::size_t count, std::size_t size) noexcept;
 void* __libc_realloc(void* memory, std::size_t size) noexcept;
 void* __libc_memalign(std::size_t alignment, std::size_t size) noexcept;
 void __libc_free(void* memory) noexcept;
-// NOLINTEND(bugprone-reserved-identifier)
+// NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
+
+// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name): glibc's are reserved
 
 void* malloc(std::size_t size) noexcept {
   note_allocation();
@@ -64,6 +66,8 @@ void free(void* memory) noexcept {
   note_allocation();
   __libc_free(memory);
 }
+
+// NOLINTEND(readability-inconsistent-declaration-parameter-name)
 
 }  // extern "C"
 

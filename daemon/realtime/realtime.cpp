@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -13,6 +14,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include <malloc.h>
 
@@ -24,9 +26,11 @@ namespace {
 
 // Locked memory includes the whole stack of every thread: the default of 8 MiB each would be more
 // than all the rest. The deepest frames, those of DDS, need a tenth of this.
-constexpr std::size_t kStackBytes = std::size_t{512} * 1024;
+[[maybe_unused]] constexpr std::size_t kStackBytes = std::size_t{512} * 1024;
 // Of the stack, touched at the start where memory cannot be locked. No frame of ours is deeper.
 constexpr std::size_t kPrefaultBytes = std::size_t{128} * 1024;
+
+constexpr std::size_t kPageBytes = 4096;
 
 constexpr const char* kFullStop =
     "; the daemon runs on and may be late when the host is busy (realtime.enabled = \"off\" for no "
@@ -68,19 +72,22 @@ constexpr std::size_t kLockedBytes = std::size_t{512} * 1024 * 1024;
 void keep_memory() noexcept {
   ::mallopt(M_TRIM_THRESHOLD, -1);
   ::mallopt(M_MMAP_MAX, 0);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these need far more
   pthread_attr_t attributes;
   if (::pthread_attr_init(&attributes) != 0) return;
   ::pthread_attr_setstacksize(&attributes, kStackBytes);
   ::pthread_setattr_default_np(&attributes);
   ::pthread_attr_destroy(&attributes);
+#endif
 }
 
 }  // namespace
 
-Realtime::Realtime(const config::RealtimeSettings& settings) : settings_(settings) {
+Realtime::Realtime(config::RealtimeSettings settings) : settings_(std::move(settings)) {
   check_cpus();
   if (settings_.enabled == config::Realtime::off) return;
   keep_memory();
+  heap_begin_ = ::sbrk(0);
   try_scheduling();
   if (settings_.lock_memory) lock_memory();
 }
@@ -121,6 +128,18 @@ void Realtime::lock_memory() {
   refuse("locking memory (mlockall) is refused: " + std::string(std::strerror(errno)) +
          ": allow it with LimitMEMLOCK=infinity in the unit, `ulimit -l unlimited`, or `setcap "
          "cap_sys_nice,cap_ipc_lock+ep` on convexcutd");
+}
+
+// All of it is one range: nothing is mapped apart (see keep_memory), and nothing is given back.
+void Realtime::populate_memory() const noexcept {
+  if (memory_locked_ || heap_begin_ == nullptr) return;
+  const std::size_t into_page = reinterpret_cast<std::uintptr_t>(heap_begin_) % kPageBytes;
+  std::byte* const begin =
+      static_cast<std::byte*>(heap_begin_) + (kPageBytes - into_page) % kPageBytes;
+  const std::ptrdiff_t bytes = static_cast<std::byte*>(::sbrk(0)) - begin;
+  if (bytes <= 0) return;
+  // Kernels before 5.14 refuse: then the pages come with their first use.
+  ::madvise(begin, static_cast<std::size_t>(bytes), MADV_POPULATE_WRITE);
 }
 
 void Realtime::refuse(std::string problem) {

@@ -19,7 +19,7 @@ class Realtime {
   // Prepares the process; before it has other threads. Throws config::ConfigError when a CPU list
   // names none that is there, and std::runtime_error of one line when realtime.enabled is "on" and
   // not permitted.
-  explicit Realtime(const config::RealtimeSettings& settings);
+  explicit Realtime(config::RealtimeSettings settings);
 
   // One line each: what was asked for and refused, and what to do about it. The daemon then runs
   // on, and may be late when the host is busy.
@@ -27,6 +27,10 @@ class Realtime {
   // Whether threads are scheduled by SCHED_FIFO.
   [[nodiscard]] bool scheduled() const noexcept { return scheduled_; }
   [[nodiscard]] bool memory_locked() const noexcept { return memory_locked_; }
+
+  // When everything is made and no thread has started yet: what was taken from the heap since the
+  // construction gets its pages, where they are not there because memory is locked.
+  void populate_memory() const noexcept;
 
   // The calling thread takes up a role: name (up to 15 characters), scheduling, CPUs, and a stack
   // that is there. As its first thing.
@@ -64,6 +68,7 @@ class Realtime {
   config::RealtimeSettings settings_;
   bool scheduled_ = false;
   bool memory_locked_ = false;
+  void* heap_begin_ = nullptr;  // at construction
   std::vector<std::string> problems_;
 };
 

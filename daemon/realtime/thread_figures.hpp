@@ -67,7 +67,7 @@ class ThreadRegister {
     ThreadUsage before;
     ThreadUsage newest;
   };
-  void read(Entry& entry);
+  static void read(Entry& entry);
 
   std::array<Entry, kMaxThreads> entries_;
   // Entries are claimed by count_, filled, and then published by ready_ of the same index.

@@ -162,6 +162,18 @@ TEST_P(StalledSubscriber, HoldsUpNobody) {
 INSTANTIATE_TEST_SUITE_P(Qos, StalledSubscriber, ::testing::Values("reliable", "best_effort"),
                          [](const auto& test) { return std::string(test.param); });
 
+// More planes than any host cuts in time.
+TEST_F(LiveDaemon, LessIsComputedAndSaidWhenTimeIsShort) {
+  make_room({"--seconds", "4", "--empty"});
+  start_daemon({"mount.orientation=fixed", "convex_cut.planes=36000"});
+  BackgroundProgram replay("convexcut", replay_of_lidar());
+  std::this_thread::sleep_for(seconds{4});
+  const ProgramResult run = daemon_->stop();
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_GT(logged(run.err, "info timing", "reduced_scans"), 10) << run.err;
+  EXPECT_EQ(logged(run.err, "info end", "ring_overruns"), 0);
+}
+
 TEST_F(LiveDaemon, AnImuWithoutALidarRecordingIsWrongUsage) {
   const ProgramResult run = run_program("convexcutd", {"--imu", "imu.pcap"});
   EXPECT_EQ(run.status, 2);

@@ -4,6 +4,7 @@
 // since locked memory and default stacks stay. Does not prove that anything is on time.
 #include "daemon/realtime/realtime.hpp"
 
+#include <memory>
 #include <thread>
 
 #include <pthread.h>
@@ -13,6 +14,7 @@
 #include <gmock/gmock.h>
 
 #include "config/loader.hpp"
+#include "daemon/realtime/allocation_watch.hpp"
 #include "tests/support/in_child.hpp"
 
 namespace convexcut::daemon {
@@ -129,6 +131,30 @@ TEST(Realtime, WhereItIsDemandedARefusalStopsTheStart) {
       EXPECT_THAT(error.what(), HasSubstr("realtime.enabled is \"on\""));
     }
   });
+}
+
+// Where memory is not locked, what is made before the threads start has its pages then.
+TEST(Realtime, PopulatesTheHeap) {
+  if (!allocations_are_heard()) GTEST_SKIP() << "a sanitizer has its own allocator";
+  test::in_child([] { return true; }, "",
+                 [] {
+                   config::RealtimeSettings settings;
+                   settings.lock_memory = false;
+                   const Realtime realtime(settings);
+                   constexpr std::size_t kBytes = std::size_t{8} << 20U;
+                   const auto memory = std::unique_ptr<char[]>(new char[kBytes]);
+                   realtime.populate_memory();
+                   const auto faults = [] {
+                     rusage usage{};
+                     ::getrusage(RUSAGE_THREAD, &usage);
+                     return usage.ru_minflt;
+                   };
+                   const long before = faults();
+                   for (std::size_t at = 0; at < kBytes; at += 4096) {
+                     static_cast<volatile char*>(memory.get())[at] = 1;
+                   }
+                   EXPECT_LT(faults() - before, 16);
+                 });
 }
 
 TEST(Realtime, OffAsksForNothing) {

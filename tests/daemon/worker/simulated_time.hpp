@@ -96,8 +96,7 @@ class SimulatedWorker {
   void run(Duration span, const PipelineOptions& options) {
     span_ = span;
     begin_ = clock.steady_now();
-    Worker simulated(options, {.reduce_effort = false}, clock, returns, samples, angles,
-                     results);
+    Worker simulated(options, {.reduce_effort = false}, clock, returns, samples, angles, results);
     worker = &simulated;
     simulated.run(stop, lidar_ended, imu_ended);
     counters = {simulated.counters().empty_results.value(),
