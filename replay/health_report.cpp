@@ -122,6 +122,9 @@ JsonObject health_json(const HealthSnapshot& health) {
   std::vector<JsonObject> clocks;
   std::vector<JsonObject> stages;
   JsonObject totals;
+  sources.reserve(health.sources.size());
+  clocks.reserve(health.clocks.size());
+  stages.reserve(kStages.size());
   for (const SourceHealth& source : health.sources) sources.push_back(source_json(source));
   for (const SensorClock& clock : health.clocks) clocks.push_back(clock_json(clock));
   for (const StageInfo& info : kStages) stages.push_back(stage_json(info, of(health, info)));

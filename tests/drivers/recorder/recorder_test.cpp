@@ -105,7 +105,8 @@ TEST_F(RecorderTest, CountsWhatItWrites) {
 
 TEST_F(RecorderTest, WhatNoCaptureCanHoldIsCountedAndTheRestGoesOn) {
   Recorder recorder(options(), say());
-  capture::Record nowhere = testing::datagram(0, testing::payload_of(0, 10));
+  const auto payload = testing::payload_of(0, 10);
+  capture::Record nowhere = testing::datagram(0, payload);
   nowhere.source.reset();
   recorder.tap(Stream::lidar).on_record(nowhere);
   hear_packets(recorder, 1);

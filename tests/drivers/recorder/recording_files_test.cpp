@@ -61,7 +61,8 @@ TEST_F(Files, AppearWithTheFirstRecordOfTheirStream) {
   EXPECT_THAT(names(), ElementsAre("lidar_000.pcap"));
   files.write(Stream::imu, testing::read_of(0, testing::payload_of(0, 40)), now_);
   EXPECT_THAT(names(), ElementsAre("imu_000.pcap", "lidar_000.pcap"));
-  capture::Record frame = testing::read_of(0, testing::payload_of(0, 16));
+  const auto payload = testing::payload_of(0, 16);
+  capture::Record frame = testing::read_of(0, payload);
   frame.kind = capture::RecordKind::can;
   files.write(Stream::can, frame, now_);
   EXPECT_THAT(names(), ElementsAre("can_000.pcap", "imu_000.pcap", "lidar_000.pcap"));
