@@ -91,7 +91,8 @@ ProgramResult run_program(const std::string& name, const std::vector<std::string
                           const ProgramLimits& limits) {
   const TemporaryDirectory directory;
   const pid_t child = start_program(name, arguments, limits, directory.path());
-  const int status = wait_for(child, directory.path() / "out", directory.path() / "err", limits.terminate_at);
+  const int status =
+      wait_for(child, directory.path() / "out", directory.path() / "err", limits.terminate_at);
   return program_result(status, directory.path());
 }
 
