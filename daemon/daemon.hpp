@@ -63,13 +63,12 @@ class Daemon {
   DaemonOptions options_;
   Realtime realtime_;  // before anything that starts threads
   ThreadRegister register_;
+  InputRings rings_;
+  ResultRing results_{kResultSlots};
   std::atomic<bool> stop_{false};
   // Release stores when a thread is done; acquire loads in what waits for it.
   std::atomic<bool> worker_done_{false};
   std::atomic<bool> published_{false};
-
-  InputRings rings_;
-  ResultRing results_{kResultSlots};
 
   std::unique_ptr<Inputs> inputs_;
   Worker worker_;
