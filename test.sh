@@ -10,7 +10,7 @@ cd "$(dirname "$0")"
 case "${1:-}" in
   -h | --help) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 0 ;;
   --quick) steps=(format release) ;;
-  "") steps=(format release asan tsan fuzz bench) ;;
+  "") steps=(format release asan tsan fuzz bench vm) ;;
   *) steps=("$@") ;;
 esac
 
