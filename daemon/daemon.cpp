@@ -51,6 +51,12 @@ config::RealtimeSettings realtime_settings(const DaemonOptions& options) {
   return settings;
 }
 
+// What stays wrong for as long as the daemon runs.
+std::vector<Reason> lasting_problems(const Realtime& realtime) {
+  if (realtime.problems().empty()) return {};
+  return {{Severity::degraded, "realtime set-up incomplete"}};
+}
+
 constexpr auto kSupervision = std::chrono::milliseconds{20};
 constexpr auto kReportEvery = std::chrono::seconds{1};
 
@@ -68,9 +74,13 @@ Daemon::Daemon(const DaemonOptions& options)
                            })),
       participant_(
           realtime_.as(ThreadRole::transport, [&] { return Participant(options.config.dds); })),
-      scans_(participant_, options.config.dds, inputs_->clock(), results_,
+      scans_(participant_, options.config.dds, inputs_->clock(), results_, stages_,
              [this](ScanStatus& status) { complete(status); }),
-      imus_(participant_, options.config.dds, rings_.imu_publish, rings_.imu_publish_filled) {
+      imus_(participant_, options.config.dds, rings_.imu_publish, rings_.imu_publish_filled),
+      health_(participant_, options.config, *inputs_, worker_.packets(), worker_report_,
+              lasting_problems(realtime_), [this] { return health_counters(); }) {
+  worker_.report_to(worker_report_);
+  if (options.recordings.lidar.empty()) rings_.returns.measure_into(stages_);
   reserve_slots(results_, live_pipeline_options(options.config).max_returns_per_scan);
 }
 
@@ -143,11 +153,13 @@ void Daemon::supervise() {
   // Acquire: pairs with the release store when the last result has been written.
   while (!published_.load(std::memory_order_acquire)) {
     if (!pause(kSupervision)) return;
+    health_.poll();
     if (std::chrono::steady_clock::now() >= next_report) {
       next_report += kReportEvery;
       if (!std::exchange(steady, true)) register_.mark_steady();
       inputs_->log_changes();
       log_losses();
+      health_.report();
     }
   }
 }
@@ -157,10 +169,12 @@ bool Daemon::pause(Duration span) {
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGUSR1);
   const auto whole = std::chrono::duration_cast<std::chrono::seconds>(span);
   const std::timespec timeout{whole.count(), (span - whole).count()};
   const int signal = ::sigtimedwait(&signals, nullptr, &timeout);
-  if (signal < 0) return true;
+  if (signal == SIGUSR1) health_.dump();
+  if (signal < 0 || signal == SIGUSR1) return true;
   log::info("stop", {{"signal", signal == SIGINT ? "SIGINT" : "SIGTERM"}});
   stop_.store(true, std::memory_order_relaxed);
   return false;
@@ -173,6 +187,24 @@ void Daemon::complete(ScanStatus& status) const {
   status.lost_imu_samples_total = totals.lost_imu_samples;
   status.ring_overruns_total = rings_.overruns();
   status.reduced_scans_total = worker_.counters().reduced_scans.value();
+}
+
+HealthCounters Daemon::health_counters() const {
+  const WorkerCounters& worker = worker_.counters();
+  const RecordedTotals recorded = inputs_->recorded();
+  HealthCounters totals;
+  totals.results = scans_.counters().published.value();
+  totals.empty_results = worker.empty_results.value();
+  totals.late_results = scans_.counters().late.value();
+  totals.dropped_scans = worker.dropped_scans.value() + worker.dropped_results.value();
+  totals.points_without_orientation = worker.dropped_no_orientation.value();
+  totals.late_packets = worker_.packets().late.value();
+  totals.ring_overruns = rings_.overruns();
+  totals.publish_timeouts = scans_.counters().timed_out.value();
+  totals.recorded_records = recorded.records;
+  totals.recorded_bytes = recorded.bytes;
+  totals.unrecorded_records = recorded.missing;
+  return totals;
 }
 
 void Daemon::log_losses() {

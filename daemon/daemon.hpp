@@ -12,6 +12,7 @@
 
 #include "config/config.hpp"
 #include "daemon/dds/participant.hpp"
+#include "daemon/health_reporting.hpp"
 #include "daemon/imu_publishing.hpp"
 #include "daemon/inputs/input_rings.hpp"
 #include "daemon/inputs/inputs.hpp"
@@ -39,8 +40,9 @@ class Daemon {
   Daemon& operator=(const Daemon&) = delete;
   ~Daemon();
 
-  // Runs until the recordings have ended or SIGINT or SIGTERM comes, which must be blocked in every
-  // thread. Throws std::runtime_error when the recordings hold nothing of use.
+  // Runs until the recordings have ended or SIGINT or SIGTERM comes; SIGUSR1 writes all that is
+  // known of the daemon's health to the log. The three must be blocked in every thread. Throws
+  // std::runtime_error when the recordings hold nothing of use.
   void run();
 
  private:
@@ -51,13 +53,14 @@ class Daemon {
   void start_thread(const char* name, ThreadRole role, std::function<void()> body);
   // Returns when the work is done or a signal has come; logs what went wrong meanwhile.
   void supervise();
-  // False when a signal came within `span`.
+  // False when a signal to stop came within `span`.
   bool pause(Duration span);
   void log_losses();
   void log_threads();
   void log_timing() const;
   void log_end() const;
   void complete(ScanStatus& status) const;
+  [[nodiscard]] HealthCounters health_counters() const;
   [[nodiscard]] bool signalled() const noexcept { return stop_.load(std::memory_order_relaxed); }
 
   DaemonOptions options_;
@@ -70,11 +73,14 @@ class Daemon {
   std::atomic<bool> worker_done_{false};
   std::atomic<bool> published_{false};
 
+  StageHistograms stages_;
+  WorkerReport worker_report_{stages_, {}, {}};
   std::unique_ptr<Inputs> inputs_;
   Worker worker_;
   Participant participant_;
   ScanPublishing scans_;
   ImuPublishing imus_;
+  HealthReporting health_;
   std::vector<std::thread> threads_;
   std::chrono::steady_clock::time_point started_{};
   std::uint64_t reported_losses_ = 0;

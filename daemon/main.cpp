@@ -13,11 +13,12 @@ namespace {
 using namespace convexcut;
 
 // Every thread inherits this: only Daemon::run() takes the signals, by asking for them.
-void block_stop_signals() {
+void block_signals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGUSR1);
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
@@ -26,6 +27,7 @@ struct Arguments {
   command_line::ConfigArguments config;
   std::string rate = "1";
   double wait_for_reader_s = 0.0;
+  std::string record;
 };
 
 int run(const Arguments& args) {
@@ -38,9 +40,15 @@ int run(const Arguments& args) {
     throw command_line::UsageError(
         "expected --lidar FILE beside --imu or --can, or none of them to run live");
   }
+  if (!args.record.empty()) {
+    if (!options.recordings.lidar.empty()) {
+      throw command_line::UsageError("--record: expected live input, not a recording (--lidar)");
+    }
+    options.config.record.directory = args.record;
+  }
   options.wait_for_reader = Duration{static_cast<Duration::rep>(args.wait_for_reader_s * 1e9)};
   daemon::log::set_level(options.config.log.level);
-  block_stop_signals();
+  block_signals();
   daemon::Daemon(options).run();
   return command_line::kDone;
 }
@@ -61,8 +69,12 @@ int program(int argc, char** argv) {
                   "Start when somebody listens, or after this time (default 0)")
       ->check(CLI::Range(0.0, 3600.0))
       ->type_name("SECONDS");
+  root.add_option("--record", args.record,
+                  "Record the live input in this directory (as record.directory)")
+      ->type_name("DIR");
   root.footer(
       "Without --lidar it runs live, on the sensors that the configuration names.\n"
+      "SIGUSR1 writes all that it knows of its health to the log.\n"
       "Exit status: 0 done, 1 failed while running, 2 wrong usage or configuration.\n"
       "Examples:\n"
       "  convexcutd --set imu.device=/dev/ttyUSB0\n"

@@ -14,13 +14,14 @@ constexpr Duration kLongestWait = std::chrono::milliseconds{50};
 }  // namespace
 
 ScanPublishing::ScanPublishing(const Participant& participant, const config::Dds& settings,
-                               const Clock& clock, ResultRing& results,
+                               const Clock& clock, ResultRing& results, StageHistograms& stages,
                                std::function<void(ScanStatus&)> complete)
     : publisher_(participant, settings),
       status_publisher_(participant, settings),
       clock_(clock),
       results_(results),
-      complete_(std::move(complete)) {}
+      complete_(std::move(complete)),
+      stages_(stages) {}
 
 void ScanPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>& worker_done) {
   // Relaxed: the flag only ends the loop, it publishes nothing.
@@ -52,10 +53,12 @@ void ScanPublishing::publish(const Result& result) {
   const auto written = Clock::Steady::now();
   lead.observe(written - begun);
   if (clock_.paced() && !late && structure == PublishStatus::sent) {
-    jitter_.record(std::chrono::abs(written - result.due));
+    stages_.record(Stage::jitter, std::chrono::abs(written - result.due));
   }
   const Duration latency =
       (clock_.paced() ? clock_.host_at(written) : clock_.now()) - scan.last_firing;
+  stages_.record(Stage::publish, written - begun);
+  if (scan.end != ScanEnd::no_data) stages_.record(Stage::latency, latency);
   const PublishStatus points = publisher_.publish_points(scan);
 
   counters_.published.add();

@@ -9,6 +9,7 @@
 #include "daemon/clock/clock.hpp"
 #include "daemon/dds/publisher.hpp"
 #include "daemon/dds/scan_status.hpp"
+#include "daemon/health/stages.hpp"
 #include "daemon/result.hpp"
 #include "daemon/write_lead.hpp"
 
@@ -25,9 +26,11 @@ struct PublishingCounters {
 // allocates and locks.
 class ScanPublishing {
  public:
-  // `complete` fills in the totals of a status: what other parts of the daemon have counted.
+  // `stages` outlives this. `complete` fills in the totals of a status: what other parts of the
+  // daemon have counted.
   ScanPublishing(const Participant& participant, const config::Dds& settings, const Clock& clock,
-                 ResultRing& results, std::function<void(ScanStatus&)> complete);
+                 ResultRing& results, StageHistograms& stages,
+                 std::function<void(ScanStatus&)> complete);
 
   // The thread's body: returns on stop, or when `worker_done` is set and the ring is empty.
   void run(const std::atomic<bool>& stop, const std::atomic<bool>& worker_done);
@@ -39,7 +42,9 @@ class ScanPublishing {
   [[nodiscard]] const PublishingCounters& counters() const noexcept { return counters_; }
   // How far from its due time each write of structure returned, early or late, while somebody
   // listens; scans that were late already when they came are left out.
-  [[nodiscard]] const LatencyHistogram& jitter() const noexcept { return jitter_; }
+  [[nodiscard]] const LatencyHistogram& jitter() const noexcept {
+    return stages_.of(Stage::jitter);
+  }
 
  private:
   void publish(const Result& result);
@@ -50,7 +55,7 @@ class ScanPublishing {
   ResultRing& results_;
   std::function<void(ScanStatus&)> complete_;
   PublishingCounters counters_;
-  LatencyHistogram jitter_;
+  StageHistograms& stages_;
   WriteLead lead_;
   WriteLead empty_lead_;  // of results without points: their writes take next to nothing
 };

@@ -93,6 +93,7 @@ bool Worker::drain(HostTime now) noexcept {
     if (stamped_before_step(batch.arrival, now)) return;
     newest_arrival_ = std::max(newest_arrival_, batch.arrival);
     silent_ = false;
+    if (report_ != nullptr) report_->stages.record(Stage::arrival_to_worker, now - batch.arrival);
     pipeline_.on_lidar(batch);
   };
   // A few packets at a time, so that no more scans are closed than can wait.
@@ -154,9 +155,13 @@ HostTime Worker::give_up() const noexcept {
 
 bool Worker::hand_over(HostTime now, Result& slot) noexcept {
   const auto begun = Clock::Steady::now();
-  if (!pipeline_.next_scan(now, slot.scan)) return false;
-  const Duration used = Clock::Steady::now() - begun;
+  if (!pipeline_.level_next(now, slot.scan)) return false;
+  const auto levelled = Clock::Steady::now();
+  pipeline_.cut(slot.scan);
+  const auto done = Clock::Steady::now();
+  const Duration used = done - begun;
   compute_time_.record(used);
+  report(levelled - begun, done - levelled);
   slot.effort = effort_.effort();
   if (slot.effort != Effort::full) counters_.reduced_scans.add();
   if (clock_.paced() && options_.reduce_effort) adapt_effort(used, now, slot.scan.last_firing);
@@ -164,6 +169,27 @@ bool Worker::hand_over(HostTime now, Result& slot) noexcept {
   counters_.scans.add();
   counters_.dropped_no_orientation.add(slot.scan.dropped_no_orientation);
   return true;
+}
+
+void Worker::report(Duration levelling, Duration cutting) noexcept {
+  if (report_ == nullptr) return;
+  report_->stages.record(Stage::level, levelling);
+  report_->stages.record(Stage::cut, cutting);
+  const auto lidar_source = [&] {
+    switch (pipeline_.lidar_time_source()) {
+      case LidarTimeSource::none:
+        return TimeSource::none;
+      case LidarTimeSource::envelope:
+        return TimeSource::envelope;
+      case LidarTimeSource::pps:
+        return TimeSource::pps;
+    }
+    return TimeSource::none;
+  };
+  report_->lidar_clock.store(lidar_source(), pipeline_.lidar_clock());
+  const bool has_samples = pipeline_.orientations() > 0;
+  report_->imu_clock.store(has_samples ? TimeSource::envelope : TimeSource::none,
+                           pipeline_.imu_clock());
 }
 
 // A scan has the time from when it could be begun until it is due; when its data came late, no less

@@ -15,6 +15,7 @@
 #include "core/ring/spsc_ring.hpp"
 #include "daemon/clock/clock.hpp"
 #include "daemon/effort_policy.hpp"
+#include "daemon/health/worker_report.hpp"
 #include "daemon/pipeline/pipeline.hpp"
 #include "daemon/result.hpp"
 #include "daemon/result_grid.hpp"
@@ -47,6 +48,9 @@ class Worker {
          SpscRing<ReturnBatch>& lidar, SpscRing<ImuSample>& imu, SpscRing<EncoderSample>& encoder,
          ResultRing& results);
 
+  // Before run(). `report` outlives the worker.
+  void report_to(WorkerReport& report) noexcept { report_ = &report; }
+
   // The thread's body: returns when both inputs have ended and everything is handed on, or on stop.
   // While time is not paced every scan is a result; otherwise there is one result an instant.
   // RT: no allocation, no lock, no text.
@@ -75,6 +79,7 @@ class Worker {
   [[nodiscard]] bool hand_over(HostTime now, Result& slot) noexcept;
   void adapt_effort(Duration used, HostTime begun, HostTime last_firing) noexcept;
   void hand_over_empty(Result& slot) noexcept;
+  void report(Duration levelling, Duration cutting) noexcept;
   // Hands over every scan that is ready; how many.
   unsigned hand_over_all(HostTime now) noexcept;
 
@@ -89,6 +94,7 @@ class Worker {
   EffortPolicy effort_;
   WorkerCounters counters_;
   LatencyHistogram compute_time_;
+  WorkerReport* report_ = nullptr;  // none: nobody asked
   std::uint64_t next_index_ = 0;
 
   HostTime newest_arrival_{};  // of a lidar packet

@@ -14,13 +14,13 @@
 namespace convexcut::daemon {
 
 enum class Stage : std::uint8_t {
-  receive_to_ring,  // a datagram's kernel stamp → its batch is in the ring; the receive thread
-  ring_to_worker,   // in the ring → taken out; the worker
-  level,            // a scan is levelled; the worker
-  cut,              // … and cut into structure and the rest; the worker
-  publish,          // the DDS write of the structure; the publisher
-  latency,          // a scan's last firing → that write returned; the publisher
-  jitter,           // |latency − worker.latency_ms|; the publisher
+  arrival_to_ring,    // a datagram's kernel stamp → its batch is in the ring; the receive thread
+  arrival_to_worker,  // a datagram's kernel stamp → its batch is taken out; the worker
+  level,              // a scan is levelled; the worker
+  cut,                // … and cut into structure and the rest; the worker
+  publish,            // the DDS write of the structure; the publisher
+  latency,            // a scan's last firing → that write returned; the publisher
+  jitter,             // how far from its due time a write returned; the publisher
 };
 
 struct StageInfo {
@@ -29,8 +29,9 @@ struct StageInfo {
   std::string_view help;
 };
 inline constexpr std::array<StageInfo, 7> kStages{{
-    {Stage::receive_to_ring, "receive_to_ring", "From a packet's arrival to its place in the ring"},
-    {Stage::ring_to_worker, "ring_to_worker", "From the ring to the worker"},
+    {Stage::arrival_to_ring, "arrival_to_ring", "From a packet's arrival to its place in the ring"},
+    {Stage::arrival_to_worker, "arrival_to_worker",
+     "From a packet's arrival to the worker, which looks ten times a second"},
     {Stage::level, "level", "Levelling of a scan"},
     {Stage::cut, "cut", "Convex Cut of a scan"},
     {Stage::publish, "publish", "DDS write of the structure"},

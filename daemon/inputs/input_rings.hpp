@@ -7,7 +7,9 @@
 #include "core/ring/ring_sink.hpp"
 #include "core/ring/spsc_ring.hpp"
 #include "core/sink.hpp"
+#include "daemon/health/stages.hpp"
 #include "daemon/wake_up.hpp"
+#include "drivers/live/host_clock.hpp"
 
 namespace convexcut::daemon {
 
@@ -35,6 +37,27 @@ class ImuTee final : public Sink<ImuSample> {
   ImuSample* claimed_ = nullptr;
 };
 
+// Where a lidar driver puts its batches: into the worker's ring. Live, the time that each took from
+// its arrival is recorded. The driver's thread.
+class TimedReturns final : public Sink<ReturnBatch> {
+ public:
+  explicit TimedReturns(SpscRing<ReturnBatch>& worker) noexcept : worker_(worker) {}
+  // Before the thread starts. `stages` outlives the sink.
+  void measure_into(StageHistograms& stages) noexcept { stages_ = &stages; }
+
+  [[nodiscard]] ReturnBatch* claim() noexcept override { return claimed_ = worker_.claim(); }
+  void commit() noexcept override {
+    const HostTime arrival = claimed_->arrival;
+    worker_.commit();
+    if (stages_ != nullptr) stages_->record(Stage::arrival_to_ring, live::host_now() - arrival);
+  }
+
+ private:
+  SpscRing<ReturnBatch>& worker_;
+  StageHistograms* stages_ = nullptr;
+  ReturnBatch* claimed_ = nullptr;
+};
+
 // What is between the inputs' threads and the rest of the daemon.
 struct InputRings {
   // 0.5 s of a dual-return HDL-32E (3617 packets/s): several periods of the worker.
@@ -50,7 +73,7 @@ struct InputRings {
   SpscRing<EncoderSample> encoder{kEncoderSlots};
   WakeUp imu_publish_filled;
   // The producing ends, for the drivers.
-  RingSink<ReturnBatch> returns{lidar};
+  TimedReturns returns{lidar};
   ImuTee samples{imu, imu_publish, imu_publish_filled};
   RingSink<EncoderSample> angles{encoder};
 

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/scan/packet_sequencer.hpp"
 #include "daemon/clock/clock.hpp"
+#include "daemon/health/health_monitor.hpp"
 #include "daemon/realtime/thread_role.hpp"
 
 namespace convexcut::daemon {
@@ -30,6 +32,13 @@ struct InputTotals {
   std::uint64_t lost_imu_samples = 0;        // by the IMU's own count
 };
 
+// What a live run has written to its recording.
+struct RecordedTotals {
+  std::uint64_t records = 0;
+  std::uint64_t bytes = 0;
+  std::uint64_t missing = 0;  // records
+};
+
 // Where the daemon's data come from, recordings or live sensors, and the clock that they are in.
 // Everything behind it is the same for both.
 class Inputs {
@@ -50,6 +59,11 @@ class Inputs {
 
   // Any thread.
   [[nodiscard]] virtual InputTotals totals() const noexcept = 0;
+
+  // Tells of each source how it is doing; `lidar_packets` is what became of the lidar's. Both
+  // outlive this. Once, before health is first asked for.
+  virtual void add_sources(HealthMonitor& health, const SequencerCounters& lidar_packets) const = 0;
+  [[nodiscard]] virtual RecordedTotals recorded() const noexcept { return {}; }
 
   // What is taken as input, in the log; once a second, what has changed; at the end, what was odd.
   virtual void log_start() const = 0;

@@ -6,6 +6,7 @@
 
 #include "daemon/inputs/lidar_totals.hpp"
 #include "daemon/log/log.hpp"
+#include "daemon/sources/live_health.hpp"
 
 namespace convexcut::daemon {
 namespace {
@@ -29,7 +30,8 @@ std::unique_ptr<recorder::Recorder> make_recorder(const config::Record& record) 
 
 LiveInputs::LiveInputs(const config::Config& config, InputRings& rings,
                        const std::atomic<bool>& stop)
-    : stop_(stop),
+    : config_(config),
+      stop_(stop),
       clock_(stop),
       recorder_(make_recorder(config.record)),
       sources_(config, rings.returns, rings.samples, rings.angles,
@@ -62,6 +64,25 @@ InputTotals LiveInputs::totals() const noexcept {
     totals.lost_imu_samples = bus->imu().counters().lost_groups.value();
   }
   return totals;
+}
+
+void LiveInputs::add_sources(HealthMonitor& health, const SequencerCounters& lidar_packets) const {
+  for (const LiveSources::Entry& entry : sources_.entries()) {
+    const bool is_lidar = entry.role == SourceRole::lidar;
+    health.add_source(std::string(entry.name), is_required(sources_, entry, config_),
+                      [this, &entry, &lidar_packets, is_lidar] {
+                        SourceReading reading = reading_of(sources_, entry);
+                        // What the kernel dropped is missing in the sequence too.
+                        if (is_lidar) reading.lost = lidar_packets.lost.value();
+                        return reading;
+                      });
+  }
+}
+
+RecordedTotals LiveInputs::recorded() const noexcept {
+  if (!recorder_) return {};
+  return {recorder_->counters().records.value(), recorder_->counters().bytes.value(),
+          recorder_->missing()};
 }
 
 void LiveInputs::log_start() const {

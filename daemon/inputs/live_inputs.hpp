@@ -24,12 +24,15 @@ class LiveInputs final : public Inputs {
   [[nodiscard]] std::vector<InputThread> start() override;
   [[nodiscard]] Clock& clock() noexcept override { return clock_; }
   [[nodiscard]] InputTotals totals() const noexcept override;
+  void add_sources(HealthMonitor& health, const SequencerCounters& lidar_packets) const override;
+  [[nodiscard]] RecordedTotals recorded() const noexcept override;
   void log_start() const override;
   void log_changes() override;
   void log_end() const override {}
   void check_content() const override {}  // a sensor that is off is no failure
 
  private:
+  const config::Config config_;
   const std::atomic<bool>& stop_;
   LiveClock clock_;
   std::unique_ptr<recorder::Recorder> recorder_;  // above what it is a tap of; null: none

@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include "daemon/health/source_counts.hpp"
 #include "daemon/inputs/lidar_totals.hpp"
 #include "daemon/log/log.hpp"
 
@@ -77,6 +78,26 @@ InputTotals RecordedInputs::totals() const noexcept {
     totals.lost_imu_samples = can->counters().lost_groups.value();
   }
   return totals;
+}
+
+// A recording is there for as long as it lasts.
+void RecordedInputs::add_sources(HealthMonitor& health,
+                                 const SequencerCounters& lidar_packets) const {
+  const auto there = [](SourceReading reading) {
+    reading.link = live::LinkState::open;
+    return reading;
+  };
+  health.add_source("lidar", true, [this, &lidar_packets, there] {
+    SourceReading reading = there(reading_of(recordings_.lidar_driver().counters()));
+    reading.lost = lidar_packets.lost.value();
+    return reading;
+  });
+  if (const auto* imu = recordings_.imu()) {
+    health.add_source("imu", false, [imu, there] { return there(reading_of(imu->counters())); });
+  }
+  if (const auto* can = recordings_.can()) {
+    health.add_source("can", false, [can, there] { return there(reading_of(can->counters())); });
+  }
 }
 
 void RecordedInputs::log_start() const {

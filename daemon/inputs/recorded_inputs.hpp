@@ -20,6 +20,7 @@ class RecordedInputs final : public Inputs {
   [[nodiscard]] std::vector<InputThread> start() override;
   [[nodiscard]] Clock& clock() noexcept override { return clock_; }
   [[nodiscard]] InputTotals totals() const noexcept override;
+  void add_sources(HealthMonitor& health, const SequencerCounters& lidar_packets) const override;
   void log_start() const override;
   void log_end() const override;
   void check_content() const override { recordings_.check_content(); }

@@ -121,20 +121,22 @@ std::optional<Quaternion> Pipeline::lidar_orientation(HostTime time) const noexc
   return q_level_from_lidar * q_base_from_lidar.rotation;
 }
 
-bool Pipeline::next_scan(HostTime now, LevelledScan& out) noexcept {
+bool Pipeline::level_next(HostTime now, LevelledScan& out) noexcept {
   if (waiting_count_ == 0) return false;
   const WaitingScan& waiting = waiting_[first_waiting_];
   if (!ready(waiting, now)) return false;
-
   level_scan(waiting, out);
-  // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
-  // ever, every point would keep the label `other`.
-  static_cast<void>(engine_.label(out.cloud(), out.label, plane_stride(effort_)));
-  out.structure_points = 0;
-  for (const Label label : out.label) out.structure_points += label == Label::structure ? 1U : 0U;
   scan_period_ = period_after(waiting.scan);
   pop_waiting();
   return true;
+}
+
+void Pipeline::cut(LevelledScan& scan) noexcept {
+  // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
+  // ever, every point would keep the label `other`.
+  static_cast<void>(engine_.label(scan.cloud(), scan.label, plane_stride(effort_)));
+  scan.structure_points = 0;
+  for (const Label label : scan.label) scan.structure_points += label == Label::structure ? 1U : 0U;
 }
 
 std::size_t Pipeline::drop_superseded(HostTime now, HostTime oldest_end) noexcept {

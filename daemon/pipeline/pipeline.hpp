@@ -91,11 +91,19 @@ class Pipeline {
   void end_of_imu() noexcept { imu_ended_ = true; }
   void end_of_encoder() noexcept { encoder_ended_ = true; }
 
-  // Levels and labels the oldest scan into `out` if it is ready at `now`: its orientations are all
-  // there, or will not come in time. False: none is ready.
-  [[nodiscard]] bool next_scan(HostTime now, LevelledScan& out) noexcept;
+  // Levels the oldest scan into `out` if it is ready at `now`: its orientations are all there, or
+  // will not come in time. False: none is ready.
+  [[nodiscard]] bool level_next(HostTime now, LevelledScan& out) noexcept;
+  // Convex Cut: labels what level_next() gave.
+  void cut(LevelledScan& scan) noexcept;
+  // Both.
+  [[nodiscard]] bool next_scan(HostTime now, LevelledScan& out) noexcept {
+    if (!level_next(now, out)) return false;
+    cut(out);
+    return true;
+  }
 
-  // Of the scans that next_scan() gives from now on.
+  // Of the scans that level_next() gives from now on.
   void set_effort(Effort effort) noexcept { effort_ = effort; }
 
   // Drops the oldest scans as long as they ended before `oldest_end`, or as the one behind is ready
@@ -106,8 +114,8 @@ class Pipeline {
   // those that wait are dropped (and counted), all mappings start anew.
   void restart_time() noexcept;
 
-  // From the end of the newest scan given by next_scan() to the expected end of the next; 0 when it
-  // did not end with a cut, or the rotor's speed is not known.
+  // From the end of the newest scan given by level_next() to the expected end of the next; 0 when
+  // it did not end with a cut, or the rotor's speed is not known.
   [[nodiscard]] Duration scan_period() const noexcept { return scan_period_; }
 
   // Scans that are cut but not yet ready.

@@ -45,7 +45,7 @@ TEST(HealthLog, DetailHasALineForEverySourceClockAndStage) {
   EXPECT_EQ(lines[3],
             "info health_clock name=lidar source=envelope locked=true offset_ms=1500 "
             "jitter_ms=0.08 skew_ppm=-12.5 steps=1\n");
-  EXPECT_THAT(lines[4], StartsWith("info health_stage name=receive_to_ring count=0"));
+  EXPECT_THAT(lines[4], StartsWith("info health_stage name=arrival_to_ring count=0"));
   EXPECT_THAT(lines.back(), HasSubstr("late_results=2"));
   EXPECT_THAT(lines.back(), HasSubstr("recorded_bytes=1000000000000"));
 }

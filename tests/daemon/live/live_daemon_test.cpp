@@ -16,6 +16,7 @@
 
 #include "tests/support/background_program.hpp"
 #include "tests/support/room.hpp"
+#include "tests/support/tcp_client.hpp"
 #include "tests/support/udp_sender.hpp"
 
 namespace convexcut::test {
@@ -98,6 +99,42 @@ TEST_F(LiveDaemon, TakesALidarAndAnImuAndLosesNothing) {
   EXPECT_GT(logged(run.err, "info end", "imu_samples"), 300);
   // Scans, and empty results before and after.
   EXPECT_GT(logged(run.err, "info end", "scans"), logged(run.err, "info end", "empty") + 35);
+}
+
+TEST_F(LiveDaemon, TellsHowItIsOverHttpAndOnASignal) {
+  make_room({"--seconds", "2", "--empty"});
+  const std::uint16_t port = free_udp_port();  // free for TCP too, unless others take it
+  start_daemon({"mount.orientation=fixed", "metrics.port=" + std::to_string(port)});
+  const auto metrics = [port] {
+    const TcpClient client(port);
+    client.send("GET /metrics HTTP/1.0\r\n\r\n");
+    return client.receive();
+  };
+  const auto becomes = [&](const std::string& line) {
+    std::string answer;
+    for (int i = 0; i < 300; ++i) {
+      answer = metrics();
+      if (answer.find(line) != std::string::npos) return answer;
+      std::this_thread::sleep_for(milliseconds{100});
+    }
+    return answer;
+  };
+  EXPECT_THAT(becomes(R"(convexcut_source_state{source="lidar",state="waiting"} 1)"),
+              HasSubstr(R"(source="lidar",state="waiting"} 1)"));
+  BackgroundProgram replay("convexcut", with(replay_of_lidar(), {"--loop"}));
+  const std::string streaming =
+      becomes(R"(convexcut_source_state{source="lidar",state="streaming"} 1)");
+  EXPECT_THAT(streaming, HasSubstr(R"(source="lidar",state="streaming"} 1)"));
+  std::this_thread::sleep_for(seconds{2});
+  daemon_->send(SIGUSR1);
+  EXPECT_TRUE(daemon_->wait_for("health_stage name=cut count="));
+  EXPECT_GT(logged(daemon_->err(), "info health_stage name=cut", "count"), 5);
+  EXPECT_GT(logged(daemon_->err(), "info health_stage name=arrival_to_ring", "count"), 1000);
+  EXPECT_EQ(replay.stop().status, 0);
+  EXPECT_THAT(becomes(R"(convexcut_source_state{source="lidar",state="stale"} 1)"),
+              HasSubstr(R"(source="lidar",state="stale"} 1)"));
+  const ProgramResult run = daemon_->stop();
+  EXPECT_EQ(run.status, 0) << run.err;
 }
 
 TEST_F(LiveDaemon, WithoutASensorItRunsAndStopsCleanly) {

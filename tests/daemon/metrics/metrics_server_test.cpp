@@ -4,15 +4,9 @@
 // the format's grammar is kept.
 #include "daemon/metrics/metrics_server.hpp"
 
-#include <array>
 #include <atomic>
 #include <string>
 #include <thread>
-
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,6 +14,7 @@
 #include "daemon/health/prometheus.hpp"
 #include "tests/daemon/health/exposition_checker.hpp"
 #include "tests/daemon/health/made_up_snapshot.hpp"
+#include "tests/support/tcp_client.hpp"
 
 namespace convexcut::daemon {
 namespace {
@@ -28,38 +23,7 @@ using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// A client's connection to the server.
-class Client {
- public:
-  explicit Client(std::uint16_t port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  }
-  ~Client() { ::close(fd_); }
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-
-  // Fails silently when the server has closed already.
-  void send(const std::string& text) const {
-    static_cast<void>(::send(fd_, text.data(), text.size(), MSG_NOSIGNAL));
-  }
-  // Up to the end of the connection.
-  [[nodiscard]] std::string receive() const {
-    std::string text;
-    std::array<char, 4096> piece;
-    for (;;) {
-      const ssize_t got = ::recv(fd_, piece.data(), piece.size(), 0);
-      if (got <= 0) return text;
-      text.append(piece.data(), static_cast<std::size_t>(got));
-    }
-  }
-
- private:
-  int fd_;
-};
+using Client = test::TcpClient;
 
 std::string ask(const MetricsServer& server, const std::string& request) {
   const Client client(server.port());
