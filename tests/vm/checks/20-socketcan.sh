@@ -23,13 +23,13 @@ kill $dump
 wait $dump 2>/dev/null
 check "candump's log is read like the log" counts_agree /tmp/bus.log
 
-convexcut record --out /tmp/drive --set can.interface=vcan0 >out/record.log 2>&1 &
+convexcut record --out /run/drive --set can.interface=vcan0 >out/record.log 2>&1 &
 record=$!
-recording() { [ -e /tmp/drive/can_000.pcap ] && convexcut info --can /tmp/drive/can_000.pcap; }
+recording() { [ -e /run/drive/can_000.pcap ] && convexcut info --can /run/drive/can_000.pcap; }
 heard_by_recorder() { cansend vcan0 002#00 && recording; }
 check "convexcut record listens to the bus" within 15 heard_by_recorder
 convexcut replay --can /tmp/sent.log --can-interface vcan0 >/dev/null
 kill -TERM $record
 wait $record
-check "convexcut record holds all frames of the log" counts_agree /tmp/drive/can_000.pcap
+check "convexcut record holds all frames of the log" counts_agree /run/drive/can_000.pcap
 ip link del dev vcan0
