@@ -10,8 +10,9 @@
 namespace convexcut::test {
 
 BackgroundProgram::BackgroundProgram(const std::string& name,
-                                     const std::vector<std::string>& arguments)
-    : pid_(start_program(name, arguments, {}, directory_.path())) {}
+                                     const std::vector<std::string>& arguments,
+                                     const ProgramLimits& limits)
+    : pid_(start_program(name, arguments, limits, directory_.path())) {}
 
 BackgroundProgram::~BackgroundProgram() {
   if (ended()) return;

@@ -15,7 +15,8 @@ namespace convexcut::test {
 // still does.
 class BackgroundProgram {
  public:
-  BackgroundProgram(const std::string& name, const std::vector<std::string>& arguments);
+  BackgroundProgram(const std::string& name, const std::vector<std::string>& arguments,
+                    const ProgramLimits& limits = {});
   ~BackgroundProgram();
   BackgroundProgram(const BackgroundProgram&) = delete;
   BackgroundProgram& operator=(const BackgroundProgram&) = delete;

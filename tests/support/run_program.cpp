@@ -32,8 +32,9 @@ void redirect(const std::filesystem::path& file, int to) {
 
 void apply(const ProgramLimits& limits) {
   if (limits.file_size_bytes < 0) return;
-  const rlimit limit{static_cast<rlim_t>(limits.file_size_bytes),
-                     static_cast<rlim_t>(limits.file_size_bytes)};
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  limit.rlim_cur = static_cast<rlim_t>(limits.file_size_bytes);  // a test may lift it again
   ::signal(SIGXFSZ, SIG_IGN);
   if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
 }

@@ -3,19 +3,16 @@
 // convexcutd live: real UDP, a real terminal, real DDS between processes. Does not prove anything
 // about latency or jitter (tests/soak.sh and tests/latency.sh measure these), nor about a real
 // sensor's timing.
+#include "tests/daemon/live/live_daemon.hpp"
+
 #include <chrono>
 #include <csignal>
-#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include <unistd.h>
-
 #include <gmock/gmock.h>
 
-#include "tests/support/background_program.hpp"
-#include "tests/support/room.hpp"
 #include "tests/support/tcp_client.hpp"
 #include "tests/support/udp_sender.hpp"
 
@@ -25,61 +22,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
-
-class LiveDaemon : public RoomTest {
- protected:
-  // A DDS domain of this test's own.
-  static std::string domain() { return std::to_string(100 + ::getpid() % 99); }
-
-  void start_daemon(std::vector<std::string> settings) {
-    settings.insert(settings.begin(),
-                    {"dds.domain=" + domain(), "lidar.data_port=" + std::to_string(data_port_),
-                     "lidar.position_port=" + std::to_string(position_port_)});
-    std::vector<std::string> arguments;
-    for (const std::string& setting : settings) {
-      arguments.insert(arguments.end(), {"--set", setting});
-    }
-    daemon_ = std::make_unique<BackgroundProgram>("convexcutd", arguments);
-    ASSERT_TRUE(daemon_->wait_for("info start")) << daemon_->err();
-  }
-
-  [[nodiscard]] std::vector<std::string> replay_of_lidar() const {
-    return {"replay",
-            "--lidar",
-            lidar(),
-            "--port",
-            std::to_string(data_port_),
-            "--position-port",
-            std::to_string(position_port_),
-            "--json"};
-  }
-  [[nodiscard]] static std::vector<std::string> with(std::vector<std::string> arguments,
-                                                     const std::vector<std::string>& more) {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-  }
-
-  // The number behind `key=` in the last line of the log that begins with `event`.
-  [[nodiscard]] static long logged(const std::string& log, const std::string& event,
-                                   const std::string& key) {
-    const std::size_t line = log.rfind(event + " ");
-    const std::size_t at = log.find(" " + key + "=", line == std::string::npos ? log.size() : line);
-    return at == std::string::npos ? -1 : std::stol(log.substr(at + key.size() + 2));
-  }
-  // The number of a key in one line of JSON.
-  [[nodiscard]] static long counted(const std::string& json, const std::string& key) {
-    const std::size_t at = json.find("\"" + key + "\":");
-    return at == std::string::npos ? -1 : std::stol(json.substr(at + key.size() + 3));
-  }
-  [[nodiscard]] static long resident_kib(pid_t pid) {
-    const std::string status = text("/proc/" + std::to_string(pid) + "/status");
-    return std::stol(status.substr(status.find("VmRSS:") + 6));
-  }
-
-  std::uint16_t data_port_ = free_udp_port();
-  std::uint16_t position_port_ = free_udp_port();
-  std::unique_ptr<BackgroundProgram> daemon_;
-};
 
 TEST_F(LiveDaemon, TakesALidarAndAnImuAndLosesNothing) {
   make_room({"--seconds", "4"});
@@ -174,14 +116,14 @@ TEST_F(LiveDaemon, EveryPacketOfAnOverloadIsDecodedOrCounted) {
 class StalledSubscriber : public LiveDaemon, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(StalledSubscriber, HoldsUpNobody) {
-  make_room({"--seconds", "12", "--empty"});
+  make_room({"--seconds", "16", "--empty"});
   start_daemon({"mount.orientation=fixed", std::string("dds.reliability=") + GetParam()});
   BackgroundProgram watch("convexcut", {"watch", "--domain", domain(), "--json"});
   BackgroundProgram replay("convexcut", replay_of_lidar());
   std::this_thread::sleep_for(seconds{3});
   const long before = resident_kib(daemon_->pid());
   watch.send(SIGSTOP);
-  std::this_thread::sleep_for(seconds{6});
+  std::this_thread::sleep_for(seconds{10});
   const long after = resident_kib(daemon_->pid());
   watch.send(SIGCONT);
   std::this_thread::sleep_for(seconds{1});
