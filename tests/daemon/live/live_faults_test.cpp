@@ -3,6 +3,7 @@
 // What goes wrong with sensors, cables, disks and operators, on convexcutd live as users run it.
 // Does not prove anything about real sensors, adapters and network cards; a host clock that is set
 // and a CAN bus that goes off are in tests/vm.
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -59,6 +60,15 @@ class LiveFault : public LiveDaemon {
     EXPECT_EQ(ended_with("kernel_drops"), 0) << run_.err;
     EXPECT_EQ(ended_with("ring_overruns"), 0) << run_.err;
   }
+  // As `convexcut info` reads them.
+  [[nodiscard]] long packets_recorded_in(const std::string& file) const {
+    const ProgramResult info =
+        run_program("convexcut", {"info", "--json", "--lidar", path(file).string(), "--set",
+                                  "lidar.data_port=" + std::to_string(data_port_), "--set",
+                                  "lidar.position_port=" + std::to_string(position_port_)});
+    EXPECT_EQ(info.status, 0) << info.err;
+    return counted(info.out, "data_packets");
+  }
 
   ProgramResult sent_;
   ProgramResult run_;
@@ -67,14 +77,14 @@ class LiveFault : public LiveDaemon {
 class PacketLoss : public LiveFault, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(PacketLoss, IsCountedToThePacketAndScansGoOn) {
-  make_room({"--seconds", "4", "--empty"});
+  make_room({"--seconds", "3", "--empty"});
   play({"--loss", GetParam()});
   const long arrived = ended_with("packets");
   EXPECT_GT(counted(sent_.out, "data_packets"), arrived);
   EXPECT_EQ(ended_with("lost_packets"), counted(sent_.out, "data_packets") - arrived);
   EXPECT_EQ(arrived + ended_with("position_packets"), counted(sent_.out, "datagrams_sent"));
   EXPECT_EQ(ended_with("late_packets"), 0);
-  EXPECT_GE(scans(), 38);
+  EXPECT_GE(scans(), 28);
   expect_results_all_the_time();
   expect_nothing_dropped_here();
   // One percent is where the state begins to say so.
@@ -87,17 +97,17 @@ INSTANTIATE_TEST_SUITE_P(Share, PacketLoss, ::testing::Values("0.01", "0.1"),
                          [](const auto& test) { return "Of" + std::string(test.param).substr(2); });
 
 TEST_F(LiveFault, PacketsTwiceAndOutOfOrderAreCountedAndNothingIsLost) {
-  make_room({"--seconds", "4", "--empty"});
+  make_room({"--seconds", "3", "--empty"});
   play({"--duplicate", "0.05", "--reorder", "0.05"});
   EXPECT_EQ(ended_with("lost_packets"), 0) << run_.err;
   EXPECT_EQ(ended_with("late_packets"), 0);
   EXPECT_EQ(ended_with("late"), 0);
-  EXPECT_GT(ended_with("duplicate_packets"), 200);
+  EXPECT_GT(ended_with("duplicate_packets"), 150);
   EXPECT_EQ(ended_with("duplicate_packets"),
             ended_with("packets") - counted(sent_.out, "data_packets"));
-  EXPECT_GT(ended_with("reordered_packets"), 200);
+  EXPECT_GT(ended_with("reordered_packets"), 150);
   EXPECT_LE(ended_with("reordered_packets"), counted(sent_.out, "datagrams_reordered"));
-  EXPECT_GE(scans(), 38);
+  EXPECT_GE(scans(), 28);
   expect_results_all_the_time();
 }
 
@@ -206,7 +216,7 @@ TEST_F(LiveFault, NoiseOnTheSerialLineIsCountedAndSamplesGoOn) {
   EXPECT_THAT(now, HasSubstr("health_source name=imu state=streaming"));
   const ProgramResult sent = replay.stop();
   stop();
-  EXPECT_GT(counted(sent.out, "imu_garbage"), 20);
+  EXPECT_GT(counted(sent.out, "imu_garbage"), 10);
   // Noise may look like the beginning of a message and take the next one with it: that is lost.
   EXPECT_EQ(ended_with("imu_samples") + ended_with("lost_imu_samples"),
             counted(sent.out, "imu_sent"));
@@ -216,10 +226,15 @@ TEST_F(LiveFault, NoiseOnTheSerialLineIsCountedAndSamplesGoOn) {
 
 class Rotor : public LiveFault, public ::testing::WithParamInterface<int> {};
 
-TEST_P(Rotor, GivesAScanForEachRevolution) {
+// Results come ten times a second: of a faster rotor's scans the newest.
+TEST_P(Rotor, GivesAResultForEachRevolutionUpToOneForEachPeriod) {
   make_room({"--seconds", "3", "--empty", "--rate-hz", std::to_string(GetParam())});
   play({});
-  EXPECT_NEAR(static_cast<double>(scans()), 3.0 * GetParam(), 2.0) << run_.err;
+  const long superseded = std::max(0L, logged(run_.err, "losses", "superseded_scans"));
+  EXPECT_NEAR(static_cast<double>(scans() + superseded), 3.0 * GetParam(), 2.0) << run_.err;
+  if (GetParam() <= 11) {
+    EXPECT_EQ(superseded, 0) << run_.err;
+  }
   EXPECT_EQ(ended_with("lost_packets"), 0);
   expect_nothing_dropped_here();
 }
@@ -252,7 +267,7 @@ class ChangedRecording : public LiveFault {
 
 TEST_F(ChangedRecording, TopOfTheHourIsNothingSpecial) {
   namespace layout = velodyne::wire_layout;
-  make_room({"--seconds", "4", "--empty", "--no-pps"});
+  make_room({"--seconds", "3", "--empty", "--no-pps"});
   std::uint32_t first = 0;
   bool wrapped = false;
   change_packets([&](std::span<std::byte> payload) {
@@ -261,7 +276,7 @@ TEST_F(ChangedRecording, TopOfTheHourIsNothingSpecial) {
     const auto time = wire::load_le<std::uint32_t>(payload, at);
     if (first == 0) first = time;
     const auto moved = static_cast<std::uint32_t>(
-        (std::int64_t{time} - first + layout::kMicrosPerHour - 2'000'000 + layout::kMicrosPerHour) %
+        (std::int64_t{time} - first + layout::kMicrosPerHour - 1'500'000 + layout::kMicrosPerHour) %
         layout::kMicrosPerHour);
     wrapped = wrapped || moved < 1'000'000;
     wire::store_le<std::uint32_t>(payload, at, moved);
@@ -272,12 +287,12 @@ TEST_F(ChangedRecording, TopOfTheHourIsNothingSpecial) {
   EXPECT_EQ(ended_with("lost_packets"), 0);
   EXPECT_EQ(ended_with("rejected_packets"), 0);
   EXPECT_EQ(ended_with("late"), 0);
-  EXPECT_GE(scans(), 38);
+  EXPECT_GE(scans(), 28);
   expect_results_all_the_time();
   EXPECT_THAT(run_.err, Not(HasSubstr("losses"))) << run_.err;
 }
 
-TEST_F(ChangedRecording, RotorThatStandsGivesResultsWithoutAFull) {
+TEST_F(ChangedRecording, RotorThatStandsGivesResultsAllTheTime) {
   namespace layout = velodyne::wire_layout;
   make_room({"--seconds", "3", "--empty"});
   change_packets([&](std::span<std::byte> payload) {
@@ -317,8 +332,7 @@ TEST_F(LiveFault, FullDiskStopsTheRecordingAloneAndSpaceStartsItAgain) {
   EXPECT_EQ(ended_with("lost_packets"), 0);
   expect_results_all_the_time();
   for (const char* file : {"rec/lidar_000.pcap", "rec/lidar_001.pcap"}) {
-    const ProgramResult info = run_program("convexcut", {"info", "--lidar", path(file).string()});
-    EXPECT_EQ(info.status, 0) << info.err;
+    EXPECT_GT(packets_recorded_in(file), 500);
   }
 }
 
@@ -331,10 +345,8 @@ TEST_F(LiveFault, SigtermUnderLoadEndsAtOnceAndLeavesAReadableRecording) {
   stop();
   EXPECT_LT(std::chrono::steady_clock::now() - before, milliseconds{1000});
   EXPECT_EQ(replay.stop().status, 0);
-  EXPECT_GT(ended_with("packets"), 20'000);
-  const ProgramResult info =
-      run_program("convexcut", {"info", "--lidar", path("rec/lidar_000.pcap").string()});
-  EXPECT_EQ(info.status, 0) << info.err;
+  EXPECT_GT(ended_with("packets"), 1000);
+  EXPECT_GT(packets_recorded_in("rec/lidar_000.pcap"), 10'000);
 }
 
 TEST_F(LiveFault, CableThatIsPulledAndPutBackIsToldAndNeedsNoRestart) {
@@ -357,6 +369,9 @@ TEST_F(LiveFault, CableThatIsPulledAndPutBackIsToldAndNeedsNoRestart) {
     becomes("lidar", "streaming", kRecovery);
     ip("link set sensor down");
     becomes("lidar", "absent", 2.0);
+    const std::string cut = dump();
+    const long scans_before = logged(cut, "info health_totals", "results") -
+                              logged(cut, "info health_totals", "empty_results");
     ip("link set sensor up");
     becomes("lidar", "streaming", kRecovery);
     std::this_thread::sleep_for(seconds{1});
@@ -365,7 +380,10 @@ TEST_F(LiveFault, CableThatIsPulledAndPutBackIsToldAndNeedsNoRestart) {
     stop();
     EXPECT_EQ(ended_with("packets") + ended_with("position_packets"),
               counted(sent.out, "datagrams_sent"));
-    EXPECT_GT(scans(), 20);
+    // Of a pause of less than a second the sensor's clock tells how many are missing.
+    EXPECT_EQ(ended_with("packets") + ended_with("lost_packets"),
+              counted(sent.out, "data_packets"));
+    EXPECT_GT(scans(), scans_before + 8) << "scans go on after the cable is back";
     expect_results_all_the_time();
   });
 }
