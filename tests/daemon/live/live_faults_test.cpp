@@ -19,7 +19,7 @@
 
 #include "drivers/velodyne/wire_layout.hpp"
 #include "drivers/wire.hpp"
-#include "tests/daemon/live/live_daemon.hpp"
+#include "tests/daemon/live/live_fault.hpp"
 #include "tests/support/network_namespace.hpp"
 
 namespace convexcut::test {
@@ -29,50 +29,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-// A source counts as streaming when it has done so for 1 s: two seconds and room for a busy host.
-constexpr double kRecovery = 3.0;
-
-class LiveFault : public LiveDaemon {
- protected:
-  // The lidar's recording, played once to a daemon without an IMU.
-  void play(const std::vector<std::string>& faults) {
-    start_daemon({"mount.orientation=fixed"});
-    sent_ = run_program("convexcut", with(replay_of_lidar(), faults));
-    std::this_thread::sleep_for(milliseconds{300});  // the last scan's time
-    stop();
-  }
-  void stop() {
-    run_ = daemon_->stop();
-    EXPECT_EQ(run_.status, 0) << run_.err;
-  }
-
-  [[nodiscard]] long ended_with(const std::string& key) const {
-    return logged(run_.err, "info end", key);
-  }
-  [[nodiscard]] long scans() const { return ended_with("scans") - ended_with("empty"); }
-  void expect_results_all_the_time() const {
-    EXPECT_NEAR(static_cast<double>(logged(run_.err, "info timing", "results")),
-                static_cast<double>(logged(run_.err, "info timing", "run_ms")) / 100.0, 3.0)
-        << run_.err;
-  }
-  void expect_nothing_dropped_here() const {
-    EXPECT_EQ(ended_with("kernel_drops"), 0) << run_.err;
-    EXPECT_EQ(ended_with("ring_overruns"), 0) << run_.err;
-  }
-  // As `convexcut info` reads them.
-  [[nodiscard]] long packets_recorded_in(const std::string& file) const {
-    const ProgramResult info =
-        run_program("convexcut", {"info", "--json", "--lidar", path(file).string(), "--set",
-                                  "lidar.data_port=" + std::to_string(data_port_), "--set",
-                                  "lidar.position_port=" + std::to_string(position_port_)});
-    EXPECT_EQ(info.status, 0) << info.err;
-    return counted(info.out, "data_packets");
-  }
-
-  ProgramResult sent_;
-  ProgramResult run_;
-};
 
 class PacketLoss : public LiveFault, public ::testing::WithParamInterface<const char*> {};
 
@@ -179,51 +135,6 @@ TEST_F(LiveFault, DaemonThatIsThereFirstTakesSensorsThatComeLater) {
   stop();
   EXPECT_GT(scans(), 8);
   expect_results_all_the_time();
-  expect_nothing_dropped_here();
-}
-
-TEST_F(LiveFault, ImuThatIsUnpluggedIsAbsentAndPluggedInAgainIsTaken) {
-  make_room({"--seconds", "5", "--empty"});
-  const std::string link = path("imu").string();
-  BackgroundProgram replay(
-      "convexcut", with(replay_of_lidar(), {"--imu", imu(), "--imu-link", link, "--wait", "20",
-                                            "--unplug-imu", "2", "--unplugged-for", "1"}));
-  while (!std::filesystem::exists(link)) std::this_thread::sleep_for(milliseconds{10});
-  start_daemon({"imu.device=" + link});
-  becomes("imu", "streaming", kRecovery);
-  becomes("imu", "absent", 3.0);
-  becomes("imu", "streaming", 1.0 + kRecovery);
-  const ProgramResult sent = replay.stop();
-  stop();
-  EXPECT_LE(ended_with("imu_samples"), counted(sent.out, "imu_sent"));
-  EXPECT_NEAR(static_cast<double>(ended_with("imu_samples")),
-              static_cast<double>(counted(sent.out, "imu_sent")), 2.0);
-  EXPECT_NEAR(static_cast<double>(ended_with("lost_imu_samples")),
-              static_cast<double>(counted(sent.out, "imu_unheard")), 3.0);
-  EXPECT_EQ(ended_with("lost_packets"), 0) << "the lidar is not concerned";
-  expect_results_all_the_time();
-}
-
-TEST_F(LiveFault, NoiseOnTheSerialLineIsCountedAndSamplesGoOn) {
-  make_room({"--seconds", "4", "--empty"});
-  const std::string link = path("imu").string();
-  BackgroundProgram replay(
-      "convexcut", with(replay_of_lidar(),
-                        {"--imu", imu(), "--imu-link", link, "--wait", "20", "--garbage", "0.1"}));
-  while (!std::filesystem::exists(link)) std::this_thread::sleep_for(milliseconds{10});
-  start_daemon({"imu.device=" + link});
-  becomes("imu", "streaming", kRecovery);
-  std::this_thread::sleep_for(milliseconds{2500});
-  const std::string now = dump();
-  EXPECT_GT(logged(now, "info health_source name=imu", "invalid"), 10) << now;
-  EXPECT_THAT(now, HasSubstr("health_source name=imu state=streaming"));
-  const ProgramResult sent = replay.stop();
-  stop();
-  EXPECT_GT(counted(sent.out, "imu_garbage"), 10);
-  // Noise may look like the beginning of a message and take the next one with it: that is lost.
-  EXPECT_EQ(ended_with("imu_samples") + ended_with("lost_imu_samples"),
-            counted(sent.out, "imu_sent"));
-  EXPECT_LE(ended_with("lost_imu_samples"), counted(sent.out, "imu_garbage") / 4);
   expect_nothing_dropped_here();
 }
 
