@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,10 +18,17 @@ inline constexpr double kRecovery = 3.0;
 
 class LiveFault : public LiveDaemon {
  protected:
+  // A daemon without an IMU whose ports are open, so that it hears the first packet.
+  void start_listening_daemon(std::vector<std::string> settings, const ProgramLimits& limits = {}) {
+    settings.emplace_back("mount.orientation=fixed");
+    start_daemon(std::move(settings), limits);
+    becomes("lidar", "waiting", 10.0);
+  }
   // The lidar's recording, played once to a daemon without an IMU.
   void play(const std::vector<std::string>& faults) {
-    start_daemon({"mount.orientation=fixed"});
+    start_listening_daemon({});
     sent_ = run_program("convexcut", with(replay_of_lidar(), faults));
+    EXPECT_EQ(sent_.status, 0) << sent_.err;
     std::this_thread::sleep_for(std::chrono::milliseconds{300});  // the last scan's time
     stop();
   }

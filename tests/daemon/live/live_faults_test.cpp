@@ -53,28 +53,28 @@ INSTANTIATE_TEST_SUITE_P(Share, PacketLoss, ::testing::Values("0.01", "0.1"),
                          [](const auto& test) { return "Of" + std::string(test.param).substr(2); });
 
 TEST_F(LiveFault, PacketsTwiceAndOutOfOrderAreCountedAndNothingIsLost) {
-  make_room({"--seconds", "3", "--empty"});
+  make_room({"--seconds", "2", "--empty"});
   play({"--duplicate", "0.05", "--reorder", "0.05"});
   EXPECT_EQ(ended_with("lost_packets"), 0) << run_.err;
   EXPECT_EQ(ended_with("late_packets"), 0);
   EXPECT_EQ(ended_with("late"), 0);
-  EXPECT_GT(ended_with("duplicate_packets"), 150);
+  EXPECT_GT(ended_with("duplicate_packets"), 100);
   EXPECT_EQ(ended_with("duplicate_packets"),
             ended_with("packets") - counted(sent_.out, "data_packets"));
-  EXPECT_GT(ended_with("reordered_packets"), 150);
+  EXPECT_GT(ended_with("reordered_packets"), 100);
   EXPECT_LE(ended_with("reordered_packets"), counted(sent_.out, "datagrams_reordered"));
-  EXPECT_GE(scans(), 28);
+  EXPECT_GE(scans(), 18);
   expect_results_all_the_time();
 }
 
 TEST_F(LiveFault, GarbageDatagramsAreCountedAndNothingIsLost) {
-  make_room({"--seconds", "3", "--empty"});
+  make_room({"--seconds", "2", "--empty"});
   play({"--garbage", "0.05"});
-  EXPECT_GT(ended_with("rejected_packets"), 200);
+  EXPECT_GT(ended_with("rejected_packets"), 100);
   EXPECT_EQ(ended_with("rejected_packets"), counted(sent_.out, "datagrams_garbage"));
   EXPECT_EQ(ended_with("packets"), counted(sent_.out, "data_packets"));
   EXPECT_EQ(ended_with("lost_packets"), 0);
-  EXPECT_GE(scans(), 28);
+  EXPECT_GE(scans(), 18);
 }
 
 TEST_F(LiveFault, LidarThatIsSwitchedOffAndOnIsStaleThenStreamsAgain) {
@@ -100,19 +100,20 @@ TEST_F(LiveFault, LidarThatIsSwitchedOffAndOnIsStaleThenStreamsAgain) {
   EXPECT_LE(empty_after - empty_before, 5) << "scans come at once";
   EXPECT_EQ(empty_later, empty_after);
   EXPECT_THAT(run_.err, HasSubstr("source name=lidar state=stale was=streaming"));
-  EXPECT_THAT(run_.err, HasSubstr("daemon state=faulty was=ok reasons=\"lidar stale\""));
+  EXPECT_THAT(run_.err, HasSubstr("reasons=\"lidar stale"));
   expect_results_all_the_time();
   expect_nothing_dropped_here();
 }
 
 TEST_F(LiveFault, StallOfASensorWhoseClockGoesOnIsFollowedByScans) {
-  make_room({"--seconds", "5", "--empty"});
-  play({"--stall", "0.7", "--stall-every", "2"});
+  make_room({"--seconds", "3.4", "--empty"});
+  play({"--stall", "0.5", "--stall-every", "1.5"});
   const ProgramResult info = run_program("convexcut", {"info", "--json", "--lidar", lidar()});
   EXPECT_GT(ended_with("lost_packets"), 1000);
-  EXPECT_EQ(ended_with("packets") + ended_with("lost_packets"), counted(info.out, "data_packets"));
+  EXPECT_EQ(ended_with("packets") + ended_with("lost_packets"), counted(info.out, "data_packets"))
+      << sent_.out << run_.err;
   EXPECT_THAT(run_.err, HasSubstr("source name=lidar state=stale was=streaming"));
-  EXPECT_GE(scans(), 34);
+  EXPECT_GE(scans(), 20);
   expect_results_all_the_time();
   expect_nothing_dropped_here();
 }
@@ -142,10 +143,10 @@ class Rotor : public LiveFault, public ::testing::WithParamInterface<int> {};
 
 // Results come ten times a second: of a faster rotor's scans the newest.
 TEST_P(Rotor, GivesAResultForEachRevolutionUpToOneForEachPeriod) {
-  make_room({"--seconds", "3", "--empty", "--rate-hz", std::to_string(GetParam())});
+  make_room({"--seconds", "2", "--empty", "--rate-hz", std::to_string(GetParam())});
   play({});
   const long superseded = std::max(0L, logged(run_.err, "losses", "superseded_scans"));
-  EXPECT_NEAR(static_cast<double>(scans() + superseded), 3.0 * GetParam(), 2.0) << run_.err;
+  EXPECT_NEAR(static_cast<double>(scans() + superseded), 2.0 * GetParam(), 2.0) << run_.err;
   if (GetParam() <= 11) {
     EXPECT_EQ(superseded, 0) << run_.err;
   }
@@ -181,7 +182,7 @@ class ChangedRecording : public LiveFault {
 
 TEST_F(ChangedRecording, TopOfTheHourIsNothingSpecial) {
   namespace layout = velodyne::wire_layout;
-  make_room({"--seconds", "3", "--empty", "--no-pps"});
+  make_room({"--seconds", "2", "--empty", "--no-pps"});
   std::uint32_t first = 0;
   bool wrapped = false;
   change_packets([&](std::span<std::byte> payload) {
@@ -190,9 +191,9 @@ TEST_F(ChangedRecording, TopOfTheHourIsNothingSpecial) {
     const auto time = wire::load_le<std::uint32_t>(payload, at);
     if (first == 0) first = time;
     const auto moved = static_cast<std::uint32_t>(
-        (std::int64_t{time} - first + layout::kMicrosPerHour - 1'500'000 + layout::kMicrosPerHour) %
+        (std::int64_t{time} - first + layout::kMicrosPerHour - 1'000'000 + layout::kMicrosPerHour) %
         layout::kMicrosPerHour);
-    wrapped = wrapped || moved < 1'000'000;
+    wrapped = wrapped || moved < 900'000;
     wire::store_le<std::uint32_t>(payload, at, moved);
   });
   ASSERT_TRUE(wrapped);
@@ -201,14 +202,14 @@ TEST_F(ChangedRecording, TopOfTheHourIsNothingSpecial) {
   EXPECT_EQ(ended_with("lost_packets"), 0);
   EXPECT_EQ(ended_with("rejected_packets"), 0);
   EXPECT_EQ(ended_with("late"), 0);
-  EXPECT_GE(scans(), 28);
+  EXPECT_GE(scans(), 18);
   expect_results_all_the_time();
   EXPECT_THAT(run_.err, Not(HasSubstr("losses"))) << run_.err;
 }
 
 TEST_F(ChangedRecording, RotorThatStandsGivesResultsAllTheTime) {
   namespace layout = velodyne::wire_layout;
-  make_room({"--seconds", "3", "--empty"});
+  make_room({"--seconds", "2.4", "--empty"});
   change_packets([&](std::span<std::byte> payload) {
     if (payload.size() != layout::kDataPacketSize) return;
     for (std::size_t block = 0; block < layout::kBlocks; ++block) {
@@ -219,7 +220,7 @@ TEST_F(ChangedRecording, RotorThatStandsGivesResultsAllTheTime) {
   play({});
   EXPECT_EQ(ended_with("packets"), counted(sent_.out, "data_packets"));
   // A revolution that does not end is given out after 300 ms.
-  EXPECT_NEAR(static_cast<double>(scans()), 3000.0 / 300.0, 2.0);
+  EXPECT_NEAR(static_cast<double>(scans()), 2400.0 / 300.0, 2.0);
   expect_results_all_the_time();
   expect_nothing_dropped_here();
 }
@@ -228,7 +229,7 @@ TEST_F(LiveFault, FullDiskStopsTheRecordingAloneAndSpaceStartsItAgain) {
   make_room({"--seconds", "4", "--empty"});
   ProgramLimits disk;
   disk.file_size_bytes = 1'000'000;
-  start_daemon({"mount.orientation=fixed", "record.directory=" + path("rec").string()}, disk);
+  start_listening_daemon({"record.directory=" + path("rec").string()}, disk);
   BackgroundProgram replay("convexcut", with(replay_of_lidar(), {"--loop"}));
   ASSERT_TRUE(daemon_->wait_for("recording is stopped"));
   std::this_thread::sleep_for(seconds{2});
@@ -254,7 +255,7 @@ TEST_F(LiveFault, FullDiskStopsTheRecordingAloneAndSpaceStartsItAgain) {
 
 TEST_F(LiveFault, SigtermUnderLoadEndsAtOnceAndLeavesAReadableRecording) {
   make_room({"--seconds", "3", "--empty"});
-  start_daemon({"mount.orientation=fixed", "record.directory=" + path("rec").string()});
+  start_listening_daemon({"record.directory=" + path("rec").string()});
   BackgroundProgram replay("convexcut", with(replay_of_lidar(), {"--rate", "20", "--loop"}));
   std::this_thread::sleep_for(seconds{3});
   const auto before = std::chrono::steady_clock::now();
