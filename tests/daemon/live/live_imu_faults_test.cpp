@@ -36,10 +36,11 @@ TEST_F(LiveFault, ImuThatIsUnpluggedIsAbsentAndPluggedInAgainIsTaken) {
   const ProgramResult sent = replay.stop();
   stop();
   EXPECT_LE(ended_with("imu_samples"), counted(sent.out, "imu_sent"));
-  EXPECT_NEAR(static_cast<double>(ended_with("imu_samples")),
-              static_cast<double>(counted(sent.out, "imu_sent")), 2.0);
-  EXPECT_NEAR(static_cast<double>(ended_with("lost_imu_samples")),
-              static_cast<double>(counted(sent.out, "imu_unheard")), 3.0);
+  EXPECT_GT(ended_with("lost_imu_samples"), 50);
+  // What was on the line when it broke is among the lost, by the device's own count.
+  EXPECT_NEAR(static_cast<double>(ended_with("imu_samples") + ended_with("lost_imu_samples")),
+              static_cast<double>(counted(sent.out, "imu_sent") + counted(sent.out, "imu_unheard")),
+              3.0);
   EXPECT_EQ(ended_with("lost_packets"), 0) << "the lidar is not concerned";
   expect_results_all_the_time();
 }
