@@ -95,6 +95,7 @@ TEST_F(LiveDaemon, WithoutASensorItRunsAndStopsCleanly) {
 TEST_F(LiveDaemon, EveryPacketOfAnOverloadIsDecodedOrCounted) {
   make_room({"--seconds", "2", "--empty"});
   start_daemon({"mount.orientation=fixed"});
+  becomes("lidar", "waiting", 10.0);  // its ports are open: it hears the first packet
   BackgroundProgram replay("convexcut", with(replay_of_lidar(), {"--rate", "20", "--loop"}));
   std::this_thread::sleep_for(seconds{10});
   const ProgramResult sent = replay.stop();
