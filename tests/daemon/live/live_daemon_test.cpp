@@ -13,6 +13,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/sanitized.hpp"
 #include "tests/support/tcp_client.hpp"
 #include "tests/support/udp_sender.hpp"
 
@@ -136,7 +137,9 @@ TEST_P(StalledSubscriber, HoldsUpNobody) {
   EXPECT_NEAR(static_cast<double>(results), static_cast<double>(run_ms) / 100.0, 3.0) << run.err;
   EXPECT_EQ(logged(run.err, "info end", "lost_packets"), 0);
   EXPECT_EQ(logged(run.err, "info end", "ring_overruns"), 0);
-  EXPECT_LT(after - before, 8 * 1024) << "KiB more while the subscriber was stopped";
+  if (!kSanitized) {
+    EXPECT_LT(after - before, 8 * 1024) << "KiB more while the subscriber was stopped";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Qos, StalledSubscriber, ::testing::Values("reliable", "best_effort"),
@@ -151,7 +154,9 @@ TEST_F(LiveDaemon, LessIsComputedAndSaidWhenTimeIsShort) {
   const ProgramResult run = daemon_->stop();
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_GT(logged(run.err, "info timing", "reduced_scans"), 10) << run.err;
-  EXPECT_EQ(logged(run.err, "info end", "ring_overruns"), 0);
+  if (!kSanitized) {
+    EXPECT_EQ(logged(run.err, "info end", "ring_overruns"), 0);
+  }
 }
 
 TEST_F(LiveDaemon, AnImuWithoutALidarRecordingIsWrongUsage) {
