@@ -111,7 +111,7 @@ for step in "${steps[@]}"; do
         ctest_preset tsan -L threads
       ;;
     fuzz)
-      if check build-fuzz build_preset fuzz; then
+      if check build-fuzz build_preset fuzz --target fuzz_targets; then
         for target in build/fuzz/fuzz/fuzz_*; do
           echo "$target"
         done | xargs -P 2 -n 1 scripts/run-fuzzer.sh "${FUZZ_SECONDS:-20}"
