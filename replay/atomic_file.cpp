@@ -12,9 +12,10 @@
 
 namespace convexcut::replay {
 
-AtomicFile::AtomicFile(std::filesystem::path name) : name_(std::move(name)), part_(name_) {
-  part_ += ".part";
-  fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+AtomicFile::AtomicFile(std::filesystem::path name)
+    : name_(std::move(name)),
+      part_(std::filesystem::path(name_).concat(".part")),
+      fd_(::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (fd_ < 0) fail("create", errno);
 }
 
