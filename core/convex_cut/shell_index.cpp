@@ -10,9 +10,6 @@
 namespace convexcut {
 namespace {
 
-// Readers may load whole vectors at the end of a column.
-constexpr std::size_t kPadding = 64;
-
 constexpr std::size_t kKeys = ShellIndex::kShells * ShellIndex::kBuckets;
 static_assert(kKeys <= 0x1'0000, "a key is 16 bits wide");
 
@@ -25,11 +22,11 @@ constexpr double kRadiusSlack = 1e-5;
 
 ShellIndex::ShellIndex(double half_width_m, std::size_t max_points)
     : inverse_squared_half_width_(static_cast<float>(1.0 / (half_width_m * half_width_m))),
-      x_(max_points + kPadding),
-      y_(max_points + kPadding),
-      z_(max_points + kPadding),
+      x_(max_points + kKernelPadding),
+      y_(max_points + kKernelPadding),
+      z_(max_points + kKernelPadding),
       source_(max_points),
-      keys_(max_points + kPadding),
+      keys_(max_points + kKernelPadding),
       first_half_starts_(kKeys),
       starts_(kKeys + 1) {}
 

@@ -12,15 +12,12 @@
 #include <span>
 
 #include "core/cloud.hpp"
+#include "core/convex_cut/cloud_kernels.hpp"
 #include "core/convex_cut/convex_hull.hpp"
 #include "core/convex_cut/shell_index.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
 
 namespace convexcut {
-
-// The kernels load and store whole vectors: every column, and the columns of the sorted points,
-// can be read and written this many elements past their end.
-inline constexpr std::size_t kKernelPadding = 64;
 
 // In a member's position: another slice has made this point structure already.
 inline constexpr std::uint32_t kMarked = 0x8000'0000;
