@@ -17,7 +17,9 @@
 #include <span>
 
 #include "core/convex_cut/convex_hull.hpp"
+#include "core/convex_cut/inner_polygon.hpp"
 #include "core/convex_cut/parameters.hpp"
+#include "core/convex_cut/polygon_kernels.hpp"
 #include "core/convex_cut/shell_index.hpp"
 #include "core/convex_cut/slice_kernels.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
@@ -42,21 +44,15 @@ class SliceWorker {
   [[nodiscard]] std::span<std::uint8_t> marks() noexcept { return marks_; }
 
  private:
-  using Hull = std::span<const HullPoint>;
-  // A closed chain of members. A point that is left of all its edges is in the hull: the chain
-  // winds about it, convex or not.
-  using Polygon = std::span<const HullPoint>;
-
   void cut(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept;
-  [[nodiscard]] Hull hull_of_members(const SlicingPlane& plane) noexcept;
-  [[nodiscard]] Polygon outermost_polygon(const SlicingPlane& plane) noexcept;
-  [[nodiscard]] Polygon refined_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept;
-  [[nodiscard]] Polygon any_triangle(const SlicingPlane& plane) noexcept;
-  [[nodiscard]] Polygon without_dents(std::size_t size) noexcept;
-  [[nodiscard]] Hull exact_hull(const SlicingPlane& plane, std::size_t count) noexcept;
-  void keep(const SlicingPlane& plane, Hull hull) noexcept;
-  [[nodiscard]] HullPoint exact_point(const SlicingPlane& plane,
-                                      std::uint32_t position) const noexcept;
+  [[nodiscard]] Polygon hull_of_members(const SlicingPlane& plane) noexcept;
+  void start_polygon(const SlicingPlane& plane) noexcept;
+  void start_with_any_triangle(const SlicingPlane& plane) noexcept;
+  [[nodiscard]] bool widen_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept;
+  [[nodiscard]] Polygon exact_hull(const SlicingPlane& plane, std::size_t count) noexcept;
+  void keep(const SlicingPlane& plane, const Polygon& hull) noexcept;
+  [[nodiscard]] SlicePoint exact_point(const SlicingPlane& plane,
+                                       std::uint32_t position) const noexcept;
 
   [[nodiscard]] SliceColumns members() noexcept { return {u_.data(), z_.data(), position_.data()}; }
   [[nodiscard]] SliceColumns shallow() noexcept {
@@ -71,15 +67,17 @@ class SliceWorker {
   float tolerance_m_ = 0.0F;  // of depths
 
   std::size_t count_ = 0;  // members; for keep() reduced to those that are still to be decided
-  Workspace<float> u_, z_, depth_;
+  Workspace<float> u_, z_;
   Workspace<std::uint32_t> position_;
   // Members that may be vertices of the hull.
-  Workspace<float> shallow_u_, shallow_z_, shallow_depth_;
+  Workspace<float> shallow_u_, shallow_z_;
   Workspace<std::uint32_t> shallow_position_;
-  Workspace<HullPoint> candidates_;
-  Workspace<HullPoint> vertices_;
-  std::array<HullPoint, 2 * kExtremes> outermost_{};
-  std::array<HullPoint, 2 * kExtremes> corners_{};
+  InnerPolygon polygon_;
+  InnerPolygon wider_polygon_;
+  std::array<std::uint32_t, InnerPolygon::kMostCorners + kKernelPadding> farthest_{};
+  Workspace<SlicePoint> candidates_;
+  Workspace<SlicePoint> vertices_;
+  Workspace<double> hull_u_, hull_z_;
   Workspace<float> normal_u_, normal_z_, edge_offset_;
   EdgeColumns edges_;
   Workspace<std::uint8_t> marks_;
