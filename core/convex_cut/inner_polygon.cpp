@@ -26,7 +26,8 @@ void InnerPolygon::close() noexcept {
     const SlicePoint before = corner(left == 0 ? size_ - 1 : left - 1);
     u_[kFirst + left] = point.u;
     z_[kFirst + left] = point.z;
-    left += static_cast<std::size_t>(point.u != before.u) | static_cast<std::size_t>(point.z != before.z);
+    left += static_cast<std::size_t>(point.u != before.u) |
+            static_cast<std::size_t>(point.z != before.z);
   }
   size_ = left;
   bool convex = true;
@@ -51,6 +52,16 @@ void InnerPolygon::remove_dents() noexcept {
   }
   while (left > 2 && !turns_left(corner(left - 2), corner(left - 1), corner(0))) --left;
   size_ = left;
+}
+
+bool InnerPolygon::goes_around_once() const noexcept {
+  std::size_t turns = 0;
+  for (std::size_t k = 0; k < size_; ++k) {
+    const std::size_t at = kFirst + k;
+    const std::size_t next = k + 1 == size_ ? kFirst : at + 1;
+    turns += static_cast<std::size_t>((u_[at - 1] >= u_[at]) & (u_[at] < u_[next]));
+  }
+  return turns == 1;
 }
 
 bool InnerPolygon::is_convex() const noexcept {

@@ -39,6 +39,10 @@ class InnerPolygon {
     return {u_.data() + kFirst, z_.data() + kFirst, size_};
   }
 
+  // Whether its edges lead to the right and back to the left just once: then left turns make it
+  // convex, but for rounding.
+  [[nodiscard]] bool goes_around_once() const noexcept;
+
   // Exactly: every corner turns left, and they go around once. Then no corner is in the hull of the
   // others.
   [[nodiscard]] bool is_convex() const noexcept;

@@ -30,18 +30,38 @@ struct EdgeColumns {
   std::size_t count = 0;
 };
 
+// Edges with the part of the u axis that each is over. Those at the least and the greatest u reach
+// to infinity: every u has an edge above and one below.
+struct PolygonEdges : EdgeColumns {
+  float* least_u;
+  float* most_u;
+};
+
 // The edges of a polygon into `edges`, whose columns have kKernelPadding elements to spare: edge k
 // leads from corner k − 1 to corner k. Rounded once from double.
-void set_edges(const Polygon& polygon, EdgeColumns& edges) noexcept;
+void set_edges(const Polygon& polygon, PolygonEdges& edges) noexcept;
 
-struct Sifted {
-  std::size_t shallow = 0;  // members at most `shallow_m` deep
-  std::size_t open = 0;     // members at most `open_m` deep that are not marked
-};
-// Copies the shallow members to `shallow`, without kMarked, and drops all but the open ones from
-// `members`, each in the same order.
-[[nodiscard]] Sifted sift(const EdgeColumns& edges, const SliceColumns& members, std::size_t count,
-                          float shallow_m, float open_m, const SliceColumns& shallow) noexcept;
+// The kernels below take members stretch by stretch, and compare those of a stretch only with the
+// edges that are over it or at most `limit_m` beside it. A convex polygon has its boundary above
+// and below a point inside it there, and nothing of it elsewhere is within limit_m of the point: a
+// depth that exceeds the limit does so for all edges. `facing`: room for as many edges.
+
+// Copies the members that are at most limit_m deep to `shallow`, without kMarked, in the same
+// order, and returns how many these are.
+[[nodiscard]] std::size_t find_shallow(const PolygonEdges& edges, const EdgeColumns& facing,
+                                       const SliceColumns& members,
+                                       std::span<const Stretch> stretches, float limit_m,
+                                       const SliceColumns& shallow) noexcept;
+
+// Sets marks[position] for the members that are not marked and less than e − tolerance deep, writes
+// the positions of those within the tolerance of e to `doubtful`, and returns how many these are.
+// `near`: room for as many positions as there are members.
+[[nodiscard]] std::size_t mark_near(const PolygonEdges& edges, const EdgeColumns& facing,
+                                    const SliceColumns& members, std::span<const Stretch> stretches,
+                                    float e_m, float tolerance_m, std::span<std::uint8_t> marks,
+                                    std::uint32_t* near, std::uint32_t* doubtful) noexcept;
+
+// The kernels below take all edges and all members.
 
 // Drops the members that are deeper than limit_m; how many are left, in the same order.
 [[nodiscard]] std::size_t drop_deep(const EdgeColumns& edges, const SliceColumns& members,
@@ -53,11 +73,5 @@ struct Sifted {
 inline constexpr std::uint32_t kNobody = 0xFFFF'FFFF;
 void farthest_outside(const EdgeColumns& edges, const SliceColumns& members, std::size_t count,
                       float tolerance_m, std::uint32_t* found) noexcept;
-
-// Sets marks[position] for the members that are less than e − tolerance deep, drops all but those
-// within the tolerance of e, takes kMarked from their positions, and returns how many these are.
-[[nodiscard]] std::size_t mark_near(const EdgeColumns& edges, const SliceColumns& members,
-                                    std::size_t count, float e_m, float tolerance_m,
-                                    std::span<std::uint8_t> marks) noexcept;
 
 }  // namespace convexcut

@@ -36,8 +36,9 @@ HWY_NOINLINE std::uint64_t decide_exactly(const CloudView& sorted, std::size_t b
 }
 
 std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
-                   std::span<const ShellIndex::Range> ranges, const SlicingPlane& plane,
-                   double half_width_m, float extent_m, const SliceColumns& members) {
+                   std::span<const ShellIndex::Candidates> candidates, const SlicingPlane& plane,
+                   double half_width_m, float extent_m, const SliceColumns members,
+                   Stretch* stretches) {
   const Floats df;
   const Words dw;
   const hn::Rebind<std::uint8_t, Words> db;
@@ -53,7 +54,8 @@ std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
   const float* HWY_RESTRICT ys = sorted.y.data();
   const float* HWY_RESTRICT zs = sorted.z.data();
   std::size_t count = 0;
-  for (const ShellIndex::Range range : ranges) {
+  for (const auto& [range, least_u_m, most_u_m] : candidates) {
+    const std::size_t begin = count;
     for (std::size_t i = range.begin; i < range.end; i += lanes) {
       const Float x = hn::LoadU(df, xs + i);
       const Float y = hn::LoadU(df, ys + i);
@@ -76,6 +78,8 @@ std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
       hn::StoreU(compress(position), dw, members.position + count);
       count += hn::CountTrue(df, inside);
     }
+    *stretches++ = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(count), least_u_m,
+                    most_u_m};
   }
   return count;
 }
@@ -116,7 +120,7 @@ HWY_INLINE std::uint32_t tagged_member(Float tagged_values, Float best, std::uin
   return static_cast<std::uint32_t>(index < count ? index : count - 1);
 }
 
-Extremes extremes(const SliceColumns& members, std::size_t count, Directions directions) {
+Extremes extremes(const SliceColumns members, std::size_t count, Directions directions) {
   const Floats df;
   const Words dw;
   const std::size_t lanes = hn::Lanes(df);
@@ -167,10 +171,11 @@ HWY_EXPORT(gather);
 HWY_EXPORT(extremes);
 
 std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
-                   std::span<const ShellIndex::Range> ranges, const SlicingPlane& plane,
-                   double half_width_m, float extent_m, const SliceColumns& members) noexcept {
-  return HWY_DYNAMIC_DISPATCH(gather)(sorted, marks, ranges, plane, half_width_m, extent_m,
-                                      members);
+                   std::span<const ShellIndex::Candidates> candidates, const SlicingPlane& plane,
+                   double half_width_m, float extent_m, const SliceColumns& members,
+                   Stretch* stretches) noexcept {
+  return HWY_DYNAMIC_DISPATCH(gather)(sorted, marks, candidates, plane, half_width_m, extent_m,
+                                      members, stretches);
 }
 
 Extremes extremes(const SliceColumns& members, std::size_t count, Directions directions) noexcept {

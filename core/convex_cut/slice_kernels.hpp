@@ -28,13 +28,21 @@ struct SliceColumns {
   std::uint32_t* position;  // in the sorted points, with kMarked
 };
 
-// Writes the points of `ranges` with |v| < half_width_m, in the ranges' order, and returns how many
-// these are. `marks`: a byte a sorted point, 1 where it is structure already. extent_m: the
-// greatest magnitude of a coordinate. u has an error below 4.3·2⁻²⁴·extent.
+// Members [begin, end) of a slice that lie together: their u are within the bounds, in metres.
+struct Stretch {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  float least_u_m = 0.0F;
+  float most_u_m = 0.0F;
+};
+
+// Writes the candidates with |v| < half_width_m, in their order, a stretch for each range of them,
+// and returns how many these are. `marks`: a byte a sorted point, 1 where it is structure already.
+// extent_m: the greatest magnitude of a coordinate. u has an error below 4.3·2⁻²⁴·extent.
 [[nodiscard]] std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
-                                 std::span<const ShellIndex::Range> ranges,
+                                 std::span<const ShellIndex::Candidates> candidates,
                                  const SlicingPlane& plane, double half_width_m, float extent_m,
-                                 const SliceColumns& members) noexcept;
+                                 const SliceColumns& members, Stretch* stretches) noexcept;
 
 // Indices of members that are (nearly, to 2⁻¹² of their value) outermost in sixteen directions,
 // counter-clockwise from +u. Some may be equal. Needs 0 < count < 2³¹. The fine directions lie

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -15,9 +16,6 @@ namespace {
 // Bound of the error of a depth estimate, as a part of the cloud's extent X. With |u| ≤ √2·X and
 // unit normals, its roundings sum up to less than 1.2e-6·X (design note, section "Tolerance").
 constexpr float kDepthErrorPerExtent = 2e-6F;
-
-// A slice of fewer members goes to the hull as it is.
-constexpr std::size_t kWorthCulling = 32;
 
 // With more candidates or more rounds of widening, the exact hull of the candidates is quicker.
 constexpr std::size_t kMostCandidates = 1024;
@@ -40,41 +38,57 @@ constexpr int kMostRounds = 4;
 SliceWorker::SliceWorker(const ConvexCutParameters& parameters, std::size_t max_points)
     : half_width_m_(parameters.half_width_m),
       hull_distance_m_(parameters.hull_distance_m),
-      u_(max_points + kKernelPadding),
-      z_(max_points + kKernelPadding),
-      position_(max_points + kKernelPadding),
-      shallow_u_(max_points + kKernelPadding),
-      shallow_z_(max_points + kKernelPadding),
-      shallow_position_(max_points + kKernelPadding),
+      u_(max_points + kKernelPadding, 0),
+      z_(max_points + kKernelPadding, 1),
+      position_(max_points + kKernelPadding, 2),
+      near_(max_points + kKernelPadding, 3),
+      shallow_u_(max_points + kKernelPadding, 6),
+      shallow_z_(max_points + kKernelPadding, 7),
+      shallow_position_(max_points + kKernelPadding, 8),
       candidates_(max_points),
       vertices_(max_points + 1),
-      hull_u_(max_points + kKernelPadding),
-      hull_z_(max_points + kKernelPadding),
-      normal_u_(max_points + kKernelPadding),
-      normal_z_(max_points + kKernelPadding),
-      edge_offset_(max_points + kKernelPadding),
-      edges_{normal_u_.data(), normal_z_.data(), edge_offset_.data()},
-      marks_(max_points + kKernelPadding) {}
+      hull_u_(max_points + kKernelPadding, 9),
+      hull_z_(max_points + kKernelPadding, 10),
+      normal_u_(max_points + kKernelPadding, 11),
+      normal_z_(max_points + kKernelPadding, 12),
+      edge_offset_(max_points + kKernelPadding, 13),
+      edge_least_u_(max_points + kKernelPadding, 14),
+      edge_most_u_(max_points + kKernelPadding, 15),
+      edges_{{normal_u_.data(), normal_z_.data(), edge_offset_.data()},
+             edge_least_u_.data(),
+             edge_most_u_.data()},
+      facing_normal_u_(max_points + kKernelPadding, 16),
+      facing_normal_z_(max_points + kKernelPadding, 17),
+      facing_offset_(max_points + kKernelPadding, 18),
+      facing_{facing_normal_u_.data(), facing_normal_z_.data(), facing_offset_.data()},
+      marks_(max_points + kKernelPadding, 19) {}
 
 void SliceWorker::begin(const ShellIndex& index, float extent_m) noexcept {
   index_ = &index;
   extent_m_ = extent_m;
   tolerance_m_ = kDepthErrorPerExtent * extent_m;
-  std::fill_n(marks_.begin(), index.points().size() + kKernelPadding, std::uint8_t{0});
+  std::fill_n(marks_.data(), index.points().size() + kKernelPadding, std::uint8_t{0});
 }
 
 void SliceWorker::process(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept {
   cut(plane, windows);
-  keep(plane, hull_of_members(plane));
+  if (count_ == 0) return;
+  const Polygon hull = hull_of_members(plane);
+  if (hull.size < 3) {
+    keep_all_members();
+  } else {
+    keep(plane, hull);
+  }
 }
 
 void SliceWorker::cut(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept {
-  std::array<ShellIndex::Range, 2 * ShellIndex::kShells> ranges;
+  std::array<ShellIndex::Candidates, ShellIndex::kMostRanges> ranges;
   std::size_t range_count = 0;
-  index_->for_each_candidate_range(windows,
-                                   [&](ShellIndex::Range range) { ranges[range_count++] = range; });
-  count_ = gather(index_->points(), marks_, std::span(ranges).first(range_count), plane,
-                  half_width_m_, extent_m_, members());
+  index_->for_each_candidate_range(
+      windows, [&](const ShellIndex::Candidates& found) { ranges[range_count++] = found; });
+  count_ = gather(index_->points(), marks_.span(), std::span(ranges).first(range_count), plane,
+                  half_width_m_, extent_m_, members(), stretch_storage_.data());
+  stretches_ = std::span(stretch_storage_).first(range_count);
 }
 
 SlicePoint SliceWorker::exact_point(const SlicingPlane& plane,
@@ -83,27 +97,26 @@ SlicePoint SliceWorker::exact_point(const SlicingPlane& plane,
   return plane.project(sorted.x[position], sorted.y[position], sorted.z[position]);
 }
 
-// The hull of the slice; leaves the members that the slice may still make structure.
+// The hull of the slice.
 Polygon SliceWorker::hull_of_members(const SlicingPlane& plane) noexcept {
-  if (count_ < kWorthCulling) {
-    for (std::size_t i = 0; i < count_; ++i) shallow_position_[i] = position_[i] & ~kMarked;
-    return exact_hull(plane, count_);
-  }
   start_polygon(plane);
-  if (polygon_.size() < 3) start_with_any_triangle(plane);
-  if (polygon_.size() < 3) return {};  // degenerate: all members are kept
-  set_edges(polygon_.polygon(), edges_);
-  const Sifted sifted =
-      sift(edges_, members(), count_, tolerance_m_,
-           static_cast<float>(hull_distance_m_) + tolerance_m_, shallow());
-  count_ = sifted.open;
-  std::size_t candidates = sifted.shallow;
+  if (polygon_->size() < 3) start_with_any_triangle(plane);
+  if (polygon_->size() < 3) return {};
+  if (!polygon_->goes_around_once()) {
+    for (Stretch& stretch : stretches_) {  // then all edges may face any of them
+      stretch.least_u_m = std::numeric_limits<float>::lowest();
+      stretch.most_u_m = std::numeric_limits<float>::max();
+    }
+  }
+  set_edges(polygon_->polygon(), edges_);
+  std::size_t candidates =
+      find_shallow(edges_, facing_, members(), stretches_, tolerance_m_, shallow());
   for (int round = 0; round < kMostRounds && candidates <= kMostCandidates; ++round) {
     // The corners are candidates themselves. When there are no others, all other members are
     // inside.
-    if (candidates == polygon_.size() && polygon_.is_convex()) return polygon_.polygon();
+    if (candidates == polygon_->size() && polygon_->is_convex()) return polygon_->polygon();
     if (!widen_polygon(plane, candidates)) break;
-    set_edges(polygon_.polygon(), edges_);
+    set_edges(polygon_->polygon(), edges_);
     candidates = drop_deep(edges_, shallow(), candidates, tolerance_m_);
   }
   return exact_hull(plane, candidates);
@@ -111,11 +124,11 @@ Polygon SliceWorker::hull_of_members(const SlicingPlane& plane) noexcept {
 
 // The outermost members in turn.
 void SliceWorker::start_polygon(const SlicingPlane& plane) noexcept {
-  polygon_.clear();
+  polygon_->clear();
   for (const std::uint32_t member : extremes(members(), count_, Directions::coarse)) {
-    polygon_.add(exact_point(plane, position_[member] & ~kMarked));
+    polygon_->add(exact_point(plane, position_[member] & ~kMarked));
   }
-  polygon_.close();
+  polygon_->close();
 }
 
 // For a slice whose outermost members are collinear: a triangle of members, or fewer vertices when
@@ -130,25 +143,25 @@ void SliceWorker::start_with_any_triangle(const SlicingPlane& plane) noexcept {
     corners[found++] = point;
     if (turn < 0) std::swap(corners[1], corners[2]);
   }
-  polygon_.clear();
-  for (std::size_t k = 0; k < found; ++k) polygon_.add(corners[k]);
-  if (found == 3) polygon_.close();
+  polygon_->clear();
+  for (std::size_t k = 0; k < found; ++k) polygon_->add(corners[k]);
+  if (found == 3) polygon_->close();
 }
 
 // Puts the candidate that is farthest outside of an edge between its corners (W. F. Eddy's and
 // A. Bykat's Quickhull, 1977/78). False when there is none, or no room.
 bool SliceWorker::widen_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept {
-  if (2 * polygon_.size() > InnerPolygon::kMostCorners) return false;
+  if (2 * polygon_->size() > InnerPolygon::kMostCorners) return false;
   farthest_outside(edges_, shallow(), candidates, tolerance_m_, farthest_.data());
-  wider_polygon_.clear();
-  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+  wider_polygon_->clear();
+  for (std::size_t k = 0; k < polygon_->size(); ++k) {
     if (farthest_[k] != kNobody) {
-      wider_polygon_.add(exact_point(plane, shallow_position_[farthest_[k]]));
+      wider_polygon_->add(exact_point(plane, shallow_position_[farthest_[k]]));
     }
-    wider_polygon_.add(polygon_.corner(k));
+    wider_polygon_->add(polygon_->corner(k));
   }
-  if (wider_polygon_.size() == polygon_.size()) return false;
-  wider_polygon_.close();
+  if (wider_polygon_->size() == polygon_->size()) return false;
+  wider_polygon_->close();
   std::swap(polygon_, wider_polygon_);
   return true;
 }
@@ -171,16 +184,18 @@ Polygon SliceWorker::exact_hull(const SlicingPlane& plane, std::size_t count) no
   return {u, z, hull.size()};
 }
 
+void SliceWorker::keep_all_members() noexcept {
+  for (std::size_t i = 0; i < count_; ++i) marks_[position_[i] & ~kMarked] = 1;
+}
+
 void SliceWorker::keep(const SlicingPlane& plane, const Polygon& hull) noexcept {
-  if (hull.size < 3) {
-    for (std::size_t i = 0; i < count_; ++i) marks_[position_[i] & ~kMarked] = 1;
-    return;
-  }
   set_edges(hull, edges_);
-  const std::size_t doubtful = mark_near(
-      edges_, members(), count_, static_cast<float>(hull_distance_m_), tolerance_m_, marks_);
-  for (std::size_t i = 0; i < doubtful; ++i) {
-    const std::uint32_t position = position_[i];
+  std::uint32_t* const doubtful = shallow_position_.data();  // the hull is done with
+  const std::size_t doubtful_count =
+      mark_near(edges_, facing_, members(), stretches_, static_cast<float>(hull_distance_m_),
+                tolerance_m_, marks_.span(), near_.data(), doubtful);
+  for (std::size_t i = 0; i < doubtful_count; ++i) {
+    const std::uint32_t position = doubtful[i];
     if (near_boundary(exact_point(plane, position), hull, hull_distance_m_)) marks_[position] = 1;
   }
 }

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/convex_cut/column.hpp"
 #include "core/convex_cut/convex_hull.hpp"
 #include "core/convex_cut/inner_polygon.hpp"
 #include "core/convex_cut/parameters.hpp"
@@ -41,7 +42,7 @@ class SliceWorker {
   void process(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept;
 
   // By position in the index: 1 where a slice since begin() made the point structure.
-  [[nodiscard]] std::span<std::uint8_t> marks() noexcept { return marks_; }
+  [[nodiscard]] std::span<std::uint8_t> marks() noexcept { return marks_.span(); }
 
  private:
   void cut(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept;
@@ -51,6 +52,7 @@ class SliceWorker {
   [[nodiscard]] bool widen_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept;
   [[nodiscard]] Polygon exact_hull(const SlicingPlane& plane, std::size_t count) noexcept;
   void keep(const SlicingPlane& plane, const Polygon& hull) noexcept;
+  void keep_all_members() noexcept;
   [[nodiscard]] SlicePoint exact_point(const SlicingPlane& plane,
                                        std::uint32_t position) const noexcept;
 
@@ -66,21 +68,27 @@ class SliceWorker {
   float extent_m_ = 0.0F;
   float tolerance_m_ = 0.0F;  // of depths
 
-  std::size_t count_ = 0;  // members; for keep() reduced to those that are still to be decided
-  Workspace<float> u_, z_;
-  Workspace<std::uint32_t> position_;
+  std::size_t count_ = 0;  // members
+  Column<float> u_, z_;
+  Column<std::uint32_t> position_;
+  std::array<Stretch, ShellIndex::kMostRanges> stretch_storage_{};
+  std::span<Stretch> stretches_;
+  Column<std::uint32_t> near_;  // positions of members that the slice makes structure
   // Members that may be vertices of the hull.
-  Workspace<float> shallow_u_, shallow_z_;
-  Workspace<std::uint32_t> shallow_position_;
-  InnerPolygon polygon_;
-  InnerPolygon wider_polygon_;
+  Column<float> shallow_u_, shallow_z_;
+  Column<std::uint32_t> shallow_position_;
+  std::array<InnerPolygon, 2> polygons_;
+  InnerPolygon* polygon_ = polygons_.data();
+  InnerPolygon* wider_polygon_ = polygons_.data() + 1;
   std::array<std::uint32_t, InnerPolygon::kMostCorners + kKernelPadding> farthest_{};
   Workspace<SlicePoint> candidates_;
   Workspace<SlicePoint> vertices_;
-  Workspace<double> hull_u_, hull_z_;
-  Workspace<float> normal_u_, normal_z_, edge_offset_;
-  EdgeColumns edges_;
-  Workspace<std::uint8_t> marks_;
+  Column<double> hull_u_, hull_z_;
+  Column<float> normal_u_, normal_z_, edge_offset_, edge_least_u_, edge_most_u_;
+  PolygonEdges edges_;
+  Column<float> facing_normal_u_, facing_normal_z_, facing_offset_;
+  EdgeColumns facing_;
+  Column<std::uint8_t> marks_;
 };
 
 }  // namespace convexcut
