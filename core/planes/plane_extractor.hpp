@@ -34,6 +34,7 @@ class PlaneExtractor {
   [[nodiscard]] const PlaneOptions& options() const noexcept { return options_; }
 
  private:
+  void drop_chance_planes();
   void refit();
   void describe(const CloudView& cloud);
   [[nodiscard]] bool is_patch(const PlanePatch& patch) const noexcept;
@@ -46,6 +47,7 @@ class PlaneExtractor {
   std::vector<Planelet> planelets_;
   Workspace<std::uint32_t> region_of_point_;  // in the order of the tree
   std::vector<PlaneMerger::Region> regions_;
+  std::vector<Support> support_;
   std::vector<PointColumns> points_of_region_;
   std::vector<std::uint32_t> order_, patch_of_region_;
   std::vector<PlanePatch> patches_;
