@@ -18,8 +18,9 @@
 namespace convexcut::bench {
 namespace {
 
+constexpr std::size_t kLasers = 32;
 constexpr std::size_t kFiringsPerRevolution = 2170;  // HDL-32E at 10 Hz
-// A side of a box that shows fewer points is no patch that one could ask for.
+// A side of a box that shows fewer points in a revolution is no patch that one could ask for.
 constexpr std::size_t kLeastSidePoints = 60;
 
 struct Quality {
@@ -32,6 +33,8 @@ struct Quality {
 
 [[nodiscard]] Quality quality_of(const RoomCloud& cloud,
                                  const std::vector<std::uint32_t>& patch_of_point) {
+  const std::size_t least_points =
+      kLeastSidePoints * cloud.side.size() / (kLasers * kFiringsPerRevolution);
   std::map<std::uint16_t, std::size_t> of_side;
   std::map<std::uint32_t, std::size_t> of_patch;
   std::map<std::pair<std::uint16_t, std::uint32_t>, std::size_t> both;
@@ -43,13 +46,13 @@ struct Quality {
   }
   Quality quality;
   quality.patches = of_patch.size();
-  for (const auto& [side, points] : of_side) quality.sides += points >= kLeastSidePoints ? 1U : 0U;
+  for (const auto& [side, points] : of_side) quality.sides += points >= least_points ? 1U : 0U;
   std::size_t right = 0;
   for (const auto& [key, points] : both) {
     const auto& [side, patch] = key;
     if (2 * points < of_side[side] || 2 * points < of_patch[patch]) continue;
     right += points;
-    quality.found += of_side[side] >= kLeastSidePoints ? 1U : 0U;
+    quality.found += of_side[side] >= least_points ? 1U : 0U;
   }
   quality.points_right = static_cast<double>(right) / static_cast<double>(cloud.side.size());
   return quality;

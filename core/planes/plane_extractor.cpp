@@ -55,9 +55,11 @@ PlanePatches PlaneExtractor::extract(const CloudView& cloud) {
   for (std::uint32_t& region : region_of_point_) {
     if (region != kNoPatch) region = merged.region_of_planelet[region];
   }
+  support_.assign(regions_.size(), {});
   for (int round = 0; round < kRefinements; ++round) {
     membership_.assign(tree_, regions_, region_of_point_, support_);
-    drop_chance_planes();
+    // The first round only finds out what surely is a sheet.
+    if (round > 0) drop_chance_planes();
     refit();
   }
   describe(cloud);

@@ -43,7 +43,8 @@ void PlaneMembership::list_regions(const CellTree& tree,
 }
 
 void PlaneMembership::gather_candidates(std::size_t cell,
-                                        std::span<const PlaneMerger::Region> regions) {
+                                        std::span<const PlaneMerger::Region> regions,
+                                        std::span<const Support> support) {
   near_regions_.clear();
   const CellTree::Cell centre = CellTree::cell_of(cells_[cell].key);
   for (std::uint32_t k = 0; k < 27; ++k) {
@@ -67,7 +68,7 @@ void PlaneMembership::gather_candidates(std::size_t cell,
   for (const std::uint32_t region : near_regions_) {
     candidates_.push_back({region, FloatPlane(regions[region].fit.plane),
                            static_cast<std::uint32_t>(regions[region].moments.count()),
-                           std::binary_search(here_begin, here_end, region)});
+                           support[region].sure, std::binary_search(here_begin, here_end, region)});
   }
   std::ranges::stable_sort(candidates_, std::ranges::greater{}, &Candidate::points);
   distances_.resize(candidates_.size());
@@ -83,8 +84,9 @@ std::uint32_t PlaneMembership::judge(float x, float y, float z, std::vector<Supp
     least = distances_[k];
     nearest = k;
   }
-  const std::uint32_t own_points = nearest == count ? 0 : candidates_[nearest].points;
-  for (std::size_t k = 0; k < count; ++k) {
+  const bool of_sure_sheet = nearest < count && candidates_[nearest].sure;
+  const std::uint32_t own_points = nearest < count ? candidates_[nearest].points : 0;
+  for (std::size_t k = 0; k < count && !of_sure_sheet; ++k) {
     const Candidate& candidate = candidates_[k];
     if (!candidate.here || distances_[k] <= reach_ || distances_[k] > 2.0F * reach_) continue;
     if (own_points < kMuchLarger * candidate.points) ++support[candidate.region].outside;
@@ -104,9 +106,9 @@ void PlaneMembership::assign(const CellTree& tree, std::span<const PlaneMerger::
                              Workspace<std::uint32_t>& region_of_point,
                              std::vector<Support>& support) {
   list_regions(tree, region_of_point);
-  support.assign(regions.size(), {});
+  for (Support& of_region : support) of_region = {.sure = of_region.is_surely_sheet()};
   for (std::size_t cell = 0; cell + 1 < cells_.size(); ++cell) {
-    gather_candidates(cell, regions);
+    gather_candidates(cell, regions, support);
     const CellTree::Range points = cells_[cell].points;
     for (std::uint32_t i = points.begin; i < points.end; ++i) {
       region_of_point[i] = judge(tree.x()[i], tree.y()[i], tree.z()[i], support);

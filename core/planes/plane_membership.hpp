@@ -14,16 +14,21 @@ namespace convexcut {
 
 // How the points about a region's plane fell.
 struct Support {
-  std::uint32_t points = 0;  // its own
-  std::uint32_t shared = 0;  // of these, within reach of a region with more points as well
-  std::uint32_t outside =
-      0;  // beside the plane: at once to twice the reach, in cells where the
-          // region has points; those of regions with 4 times its points not counted
+  std::uint32_t points = 0;   // its own
+  std::uint32_t shared = 0;   // of these, within reach of a region with more points as well
+  std::uint32_t outside = 0;  // beside the plane: at once to twice the reach, in cells where the
+                              // region has points; those of regions that are surely sheets, or
+                              // have four times its points, are not counted
+  bool sure = false;          // it stood out clearly in the round before this one
 
   // Whether there is a sheet of its own: it stands out from what is beside it (in clutter as many
   // points are outside as are on the plane), and larger ones do not explain it.
   [[nodiscard]] bool is_sheet() const noexcept {
     return points >= 3 * outside && points >= 2 * shared;
+  }
+  // By more, and with more points, than a plane has that takes the densest part of clutter.
+  [[nodiscard]] bool is_surely_sheet() const noexcept {
+    return points >= 100 && points >= 6 * outside && points >= 2 * shared;
   }
 };
 
@@ -33,7 +38,8 @@ class PlaneMembership {
 
   // Gives every point the nearest plane within reach (3 σ of the noise), of the regions that have
   // points in the point's cell (0.4 m by default) or in one beside it; kNoPatch when there is none.
-  // On entry `region_of_point` says where the regions are. Fills a Support for each region.
+  // On entry `region_of_point` says where the regions are. `support` has
+  // one for each region: those of the round before on entry, new ones on return.
   void assign(const CellTree& tree, std::span<const PlaneMerger::Region> regions,
               Workspace<std::uint32_t>& region_of_point, std::vector<Support>& support);
 
@@ -47,10 +53,12 @@ class PlaneMembership {
     std::uint32_t region;
     FloatPlane plane;
     std::uint32_t points;
+    bool sure;
     bool here;  // it has points in the cell itself
   };
   void list_regions(const CellTree& tree, const Workspace<std::uint32_t>& region_of_point);
-  void gather_candidates(std::size_t cell, std::span<const PlaneMerger::Region> regions);
+  void gather_candidates(std::size_t cell, std::span<const PlaneMerger::Region> regions,
+                         std::span<const Support> support);
   // The region of the point.
   [[nodiscard]] std::uint32_t judge(float x, float y, float z, std::vector<Support>& support);
 
