@@ -5,7 +5,7 @@
 
 #include "core/time.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 
 // A device's oscillator: it counts from 0 at the start of the simulation, slightly fast or slow.
 struct DeviceClock {
@@ -18,4 +18,4 @@ struct DeviceClock {
   }
 };
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation

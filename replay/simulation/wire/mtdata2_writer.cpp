@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/demo_room/mtdata2_writer.hpp"
+#include "replay/simulation/wire/mtdata2_writer.hpp"
 
 #include <bit>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 #include "drivers/wire.hpp"
 #include "drivers/xsens/xbus_writer.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 
 template <class Unsigned>
 void MtData2Writer::append(Unsigned value) {
@@ -43,4 +43,4 @@ std::vector<std::byte> MtData2Writer::frame() const {
   return xsens::make_frame(xsens::MessageId::mtdata2, items_);
 }
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation

@@ -8,7 +8,7 @@
 
 #include "drivers/xsens/mt_data_id.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 
 // Builds one MTData2 message (layout: drivers/xsens/xbus.hpp), item by item, float32 and ENU.
 class MtData2Writer {
@@ -28,4 +28,4 @@ class MtData2Writer {
   std::vector<std::byte> items_;
 };
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation

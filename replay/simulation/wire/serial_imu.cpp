@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
-#include "apps/demo_room/imu_simulator.hpp"
-#include "apps/demo_room/mtdata2_writer.hpp"
+#include "replay/simulation/wire/imu_simulator.hpp"
+#include "replay/simulation/wire/mtdata2_writer.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 namespace {
 
 constexpr Duration kTick = std::chrono::microseconds{100};  // of SampleTimeFine
@@ -28,12 +28,12 @@ std::array<float, 4> wxyz(const Quaternion& q) {
 
 }  // namespace
 
-void send_samples(const SerialImuOptions& options, const RigMotion& motion, HostTime start,
+void send_samples(const SerialImuOptions& options, RigStateAt motion, HostTime start,
                   const Period& period, Random& random, SerialLine& line) {
   const Duration step = Duration{std::chrono::seconds{1}} / options.rate_hz;
   for (std::int64_t i = 0; step * i < period.length; ++i) {
     const Duration sampled = period.from + options.clock.true_time(step * i);
-    const RigState rig = motion.state(sampled);
+    const RigState rig = motion(sampled);
     MtData2Writer message;
     message.add(xsens::DataType::packet_counter, static_cast<std::uint16_t>(kFirstCount + i));
     message.add(xsens::DataType::sample_time_fine,
@@ -44,8 +44,10 @@ void send_samples(const SerialImuOptions& options, const RigMotion& motion, Host
     message.add(xsens::DataType::rate_of_turn,
                 noisy(rig.angular_velocity_rad_s, options.noise.rate_of_turn_rad_s, random));
     message.add(xsens::DataType::status_word, kStatus);
-    line.send(start + sampled + kProcessing, message.frame());
+    const Duration late{static_cast<Duration::rep>(
+        random.uniform(0.0, static_cast<double>(options.jitter.count())))};
+    line.send(start + sampled + kProcessing + late, message.frame());
   }
 }
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation

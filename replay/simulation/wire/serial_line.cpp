@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/demo_room/serial_line.hpp"
+#include "replay/simulation/wire/serial_line.hpp"
 
 #include <algorithm>
 
 #include "drivers/xsens/xbus.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 namespace {
 
 // The gap from one read to the next, as of a USB adapter and a loaded host.
@@ -39,4 +39,4 @@ std::vector<SerialRead> SerialLine::reads(Random& random) const {
   return reads;
 }
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation

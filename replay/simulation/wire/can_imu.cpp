@@ -7,11 +7,11 @@
 #include <span>
 #include <utility>
 
-#include "apps/demo_room/imu_simulator.hpp"
 #include "drivers/wire.hpp"
+#include "replay/simulation/wire/imu_simulator.hpp"
 #include "replay/text.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 namespace {
 
 constexpr std::uint32_t kSampleTimeId = 0x005;    // u32, µs
@@ -80,13 +80,13 @@ void send_scaled(Bus& bus, std::uint32_t id, double unit, const Vec3& truth, dou
 
 }  // namespace
 
-std::string candump_log(const CanImuOptions& options, const RigMotion& motion, HostTime start,
+std::string candump_log(const CanImuOptions& options, RigStateAt motion, HostTime start,
                         const Period& period, Random& random) {
   Bus bus(options.bitrate, random);
   const Duration step = Duration{std::chrono::seconds{1}} / options.rate_hz;
   for (std::int64_t i = 0; step * i < period.length; ++i) {
     const Duration sampled = period.from + options.clock.true_time(step * i);
-    const RigState rig = motion.state(sampled);
+    const RigState rig = motion(sampled);
     bus.wait_until(start + sampled + kProcessing);
 
     std::array<std::byte, 4> time{};
@@ -107,4 +107,4 @@ std::string candump_log(const CanImuOptions& options, const RigMotion& motion, H
   return bus.take_log();
 }
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/demo_room/hdl32e_packets.hpp"
+#include "replay/simulation/wire/hdl32e_packets.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +10,7 @@
 #include "drivers/wire.hpp"
 #include "replay/text.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 namespace {
 
 // The motion words carry what they are in bits 15…12 and a 12-bit two's complement value.
@@ -63,7 +63,8 @@ DataPacketBytes encode(const DataPacket& packet) {
     }
   }
   wire::store_le<std::uint32_t>(all, layout::kDataTimestamp, packet.first_firing.count);
-  wire::store_le<std::uint8_t>(all, layout::kReturnMode, layout::kModeStrongest);
+  wire::store_le<std::uint8_t>(all, layout::kReturnMode,
+                               packet.dual ? layout::kModeDual : layout::kModeStrongest);
   wire::store_le<std::uint8_t>(all, layout::kProduct,
                                velodyne::model_of(velodyne::ModelId::hdl32e).product);
   return bytes;
@@ -92,4 +93,4 @@ PositionPacketBytes encode(const PositionPacket& packet) {
   return bytes;
 }
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation

@@ -12,7 +12,7 @@
 #include "core/time.hpp"
 #include "drivers/velodyne/wire_layout.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 
 namespace layout = velodyne::wire_layout;
 
@@ -28,6 +28,9 @@ struct DataBlock {
 
 struct DataPacket {
   MicrosPastHour first_firing;
+  // Blocks come in pairs of one firing: the last echoes, then the strongest, or the second
+  // strongest where the last is the strongest (wire facts: drivers/velodyne/decoder.hpp).
+  bool dual = false;
   std::array<DataBlock, layout::kBlocks> blocks{};
 };
 
@@ -40,11 +43,11 @@ struct PositionPacket {
 using DataPacketBytes = std::array<std::byte, layout::kDataPacketSize>;
 using PositionPacketBytes = std::array<std::byte, layout::kPositionPacketSize>;
 
-// Single return mode, strongest. The azimuth is rounded to 0.01°, and as in real sensors to 36000
+// Return mode strongest, or dual. The azimuth is rounded to 0.01°, and as in real sensors to 36000
 // rather than 0 just before north.
 [[nodiscard]] DataPacketBytes encode(const DataPacket& packet);
 
 // GPRMC says "valid" when PPS is locked. The motion sensors read an upright housing at rest, 25 °C.
 [[nodiscard]] PositionPacketBytes encode(const PositionPacket& packet);
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "apps/demo_room/random.hpp"
 #include "core/time.hpp"
+#include "replay/simulation/random.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 
 // The bytes that one read() of a serial port returned, and when it did.
 struct SerialRead {
@@ -36,4 +36,4 @@ class SerialLine {
   std::vector<HostTime> arrivals_;  // of each byte
 };
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation

@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/demo_room/device_clock.hpp"
-#include "apps/demo_room/random.hpp"
-#include "apps/demo_room/rig_motion.hpp"
-#include "apps/demo_room/serial_line.hpp"
 #include "core/time.hpp"
+#include "replay/simulation/random.hpp"
+#include "replay/simulation/rig/rig_state.hpp"
+#include "replay/simulation/wire/device_clock.hpp"
+#include "replay/simulation/wire/serial_line.hpp"
 
-namespace convexcut::sim {
+namespace convexcut::simulation {
 
 // When samples are taken: from then on, for so long. `from` counts from the start of the simulation
 // and may lie before it.
@@ -30,6 +30,7 @@ struct ImuNoise {  // standard deviations; the orientation is the truth
 struct SerialImuOptions {
   std::int64_t rate_hz = 100;  // that divides 400
   std::uint32_t baud = 115200;
+  Duration jitter{0};  // up to so much longer than usual from sampling to sending
   DeviceClock clock{.fast_by_ppm = 20.0};
   ImuNoise noise{};
 };
@@ -42,7 +43,7 @@ inline constexpr std::size_t kSerialFrameSize = 73;
 }
 
 // `start` is the host's time at the start of the simulation.
-void send_samples(const SerialImuOptions& options, const RigMotion& motion, HostTime start,
+void send_samples(const SerialImuOptions& options, RigStateAt motion, HostTime start,
                   const Period& period, Random& random, SerialLine& line);
 
 struct CanImuOptions {
@@ -54,7 +55,7 @@ struct CanImuOptions {
 
 // The frames of the same motion as lines of `candump -L`: SampleTime, GroupCounter, Quaternion,
 // RateOfTurn and Acceleration, with the default identifiers.
-[[nodiscard]] std::string candump_log(const CanImuOptions& options, const RigMotion& motion,
+[[nodiscard]] std::string candump_log(const CanImuOptions& options, RigStateAt motion,
                                       HostTime start, const Period& period, Random& random);
 
-}  // namespace convexcut::sim
+}  // namespace convexcut::simulation
