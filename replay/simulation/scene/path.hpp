@@ -39,6 +39,8 @@ class Path {
   [[nodiscard]] PathPoint at(Duration since_start) const noexcept;
 
  private:
+  void skip(double start_m) noexcept;
+
   struct Leg {
     Vec3 from;
     Vec3 direction;  // unit

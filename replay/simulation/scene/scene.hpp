@@ -16,6 +16,7 @@
 #include "core/angle.hpp"
 #include "core/geometry.hpp"
 #include "core/time.hpp"
+#include "replay/simulation/scene/bounds.hpp"
 #include "replay/simulation/scene/path.hpp"
 #include "replay/simulation/scene/ray.hpp"
 #include "replay/simulation/scene/surface_label.hpp"
@@ -49,15 +50,11 @@ struct RigPlan {
   Path path;    // empty: the scene has none
 };
 
-struct Bounds {
-  Vec3 low = Vec3::Zero();
-  Vec3 high = Vec3::Zero();
-};
+struct FourBoxes;
+struct PartPose;
 
 namespace detail {
 struct SceneData;
-struct PartPose;
-struct MoverBounds;
 }  // namespace detail
 
 // A scene at an instant. Many may exist beside each other, one a thread.
@@ -81,8 +78,9 @@ class SceneAt {
   explicit SceneAt(std::shared_ptr<const detail::SceneData> scene);
 
   std::shared_ptr<const detail::SceneData> scene_;
-  std::vector<detail::PartPose> poses_;
-  std::vector<detail::MoverBounds> bounds_;
+  std::vector<PartPose> poses_;          // of all movers' parts
+  std::vector<std::size_t> first_pose_;  // by mover
+  std::vector<FourBoxes> mover_boxes_;   // around whole movers
 };
 
 // Immutable; copies share what they hold.
