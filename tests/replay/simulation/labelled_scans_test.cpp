@@ -2,13 +2,14 @@
 //
 // Scans in memory: the drivers, the cutter and the levelling make of the simulated bytes what was
 // simulated. Not proved: that a real sensor sees like this one.
+#include "replay/simulation/labelled_scans.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "replay/simulation/labelled_scans.hpp"
 #include "tests/replay/simulation/scenes.hpp"
 
 namespace convexcut::simulation {
