@@ -5,13 +5,13 @@
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
-#include "core/angle.hpp"
 #include "core/time.hpp"
-#include "drivers/velodyne/sin_cos.hpp"
+#include "replay/simulation/lidar/beam.hpp"
+#include "replay/simulation/lidar/column.hpp"
 #include "replay/simulation/lidar/echoes.hpp"
 #include "replay/simulation/lidar/lidar_options.hpp"
 #include "replay/simulation/lidar/simulated_firing.hpp"
@@ -24,9 +24,7 @@ namespace convexcut::simulation {
 // A firing is the same whatever was asked for before it; asking in order is faster. One thread.
 class LidarSimulator {
  public:
-  // By the sensor's clock.
-  static constexpr Duration kFiringPeriod{46'080};
-  static constexpr std::size_t kLasers = SimulatedFiring::kLasers;
+  static constexpr Duration kFiringPeriod = ColumnCaster::kFiringPeriod;
 
   // Throws std::invalid_argument when an option is out of its range.
   LidarSimulator(const Scene& scene, const RigMotion& motion, const LidarOptions& options,
@@ -34,53 +32,39 @@ class LidarSimulator {
 
   void fire(std::uint64_t firing, SimulatedFiring& out);
 
-  // How many firings are in one packet.
-  [[nodiscard]] std::int64_t firings_per_packet() const noexcept { return options_.dual ? 6 : 12; }
+  [[nodiscard]] std::int64_t firings_per_packet() const noexcept {
+    return caster_.firings_per_packet();
+  }
   // True time of a firing since the start.
-  [[nodiscard]] Duration time_of(std::int64_t firing) const noexcept;
+  [[nodiscard]] Duration time_of(std::int64_t firing) const noexcept {
+    return caster_.time_of(firing);
+  }
 
  private:
-  // The middle rays of a firing's beams, and what they meet.
-  struct Column {
-    bool known = false;
-    std::int64_t firing = 0;
-    std::array<Ray, kLasers> rays;
-    std::array<Hit, kLasers> hits;
-    std::bitset<kLasers> met;
+  // What is drawn for a shot whatever comes of it.
+  struct Chance {
+    bool lost = false;
+    bool ghost = false;
+    double ghost_place = 0.0;  // 0 … 1
+    double speckle = 0.0;      // of the intensity
   };
-  struct Place {
-    Vec3 position_world = Vec3::Zero();
-    Eigen::Matrix3d world_from_lidar = Eigen::Matrix3d::Identity();
+  // The pulses of a shot that a receiver tells apart.
+  struct Seen {
+    const Echo* strongest = nullptr;
+    const Echo* second = nullptr;
+    const Echo* last = nullptr;
   };
 
-  [[nodiscard]] Azimuth rotor(std::int64_t firing) const noexcept;
-  [[nodiscard]] std::int64_t azimuth_step(std::int64_t firing) const noexcept;
-  [[nodiscard]] Place place(std::int64_t firing);
-  const Column& column(std::int64_t firing);
-  void aim(std::int64_t firing, Column& column);
-  void measure(const Column& column, std::size_t laser, Random& random, SimulatedFiring& out);
-  void gather_echoes(const Column& column, std::size_t laser);
-  [[nodiscard]] bool add_edge(const Column& column, std::size_t laser);
-  [[nodiscard]] SimulatedReturn returned(const Echo& echo, bool ghost, double ghost_share,
-                                         double speckle, Random& random) const noexcept;
+  [[nodiscard]] Chance draw(Random& random) const noexcept;
+  [[nodiscard]] Seen receive(std::span<const Echo> pulses, Random& random) const noexcept;
+  [[nodiscard]] SimulatedReturn returned(const Echo& echo, const Chance& chance,
+                                         Random& random) const noexcept;
 
   LidarOptions options_;
   std::uint64_t seed_;
-  RigMotion motion_;
+  ColumnCaster caster_;
   Optics optics_;
-  SceneAt rays_scene_;   // for the middle rays, a firing ahead of
-  SceneAt edges_scene_;  // for the edges of beams
-  std::int64_t edges_firing_ = -1;
-  struct Elevation {
-    double cos, sin;
-  };
-  std::array<Elevation, kLasers> elevation_{};     // in firing order
-  std::array<std::int64_t, kLasers> share_q32_{};  // of the firing period that has passed
-  std::array<std::size_t, kLasers> laser_of_ring_{};
-  std::array<std::size_t, kLasers> ring_of_laser_{};
-  std::array<Column, 3> columns_;
-  std::int64_t placed_firing_ = -2;
-  Place placed_;
+  Beam beam_;
   Echoes echoes_;
 };
 

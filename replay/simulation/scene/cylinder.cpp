@@ -78,13 +78,23 @@ Vec3 Cylinder::normal_at(const Vec3& p) const noexcept {
   return outwards.normalized();
 }
 
+// How far the mantle reaches from its axis along a direction.
+double Cylinder::reach(const Vec3& direction) const noexcept {
+  const double ahead = direction.dot(middle_of_part_);
+  const double aside = direction.dot(axis_.cross(middle_of_part_));
+  const double most = std::sqrt(std::max(0.0, 1.0 - std::pow(direction.dot(axis_), 2)));
+  if (cos_half_part_ <= -1.0 || ahead >= most * cos_half_part_) return radius_ * most;
+  const double sin_half_part = std::sqrt(1.0 - cos_half_part_ * cos_half_part_);
+  return radius_ * (ahead * cos_half_part_ + std::abs(aside) * sin_half_part);
+}
+
 Bounds Cylinder::bounds() const noexcept {
-  // A disc reaches radius · sin(angle between its axis and the coordinate's).
-  const Vec3 reach = radius_ * (1.0 - axis_.array().square()).max(0.0).sqrt().matrix();
   Bounds bounds;
+  const Vec3 up(reach(Vec3::UnitX()), reach(Vec3::UnitY()), reach(Vec3::UnitZ()));
+  const Vec3 down(reach(-Vec3::UnitX()), reach(-Vec3::UnitY()), reach(-Vec3::UnitZ()));
   for (const Vec3& middle : {from_, Vec3(from_ + length_ * axis_)}) {
-    bounds.add(middle - reach);
-    bounds.add(middle + reach);
+    bounds.add(middle + up);
+    bounds.add(middle - down);
   }
   return bounds;
 }

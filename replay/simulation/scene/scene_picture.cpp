@@ -70,7 +70,13 @@ class TopView {
                       -Vec3::UnitZ()};
         Hit hit;
         if (!instant.cast(ray, hit)) continue;
-        canvas.blend(kMargin + column, kTitleHeight + row, seen(scene, ray, hit), 1.0);
+        // Within a solid one meets it below and above: it is cut, and drawn as plans do.
+        Hit above;
+        const bool is_cut = instant.cast({ray.origin, Vec3::UnitZ()}, above) &&
+                            above.surface == hit.surface;
+        const Colour colour = is_cut ? shaded(colour_of(scene.surfaces()[hit.surface]), 0.35)
+                                     : seen(scene, ray, hit);
+        canvas.blend(kMargin + column, kTitleHeight + row, colour, 1.0);
       }
     }
     const RigPlan& rig = scene.rig();

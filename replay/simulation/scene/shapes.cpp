@@ -23,13 +23,14 @@ Flat::Flat(Vec3 corner, Vec3 edge_u, Vec3 edge_v, Form form) noexcept
     : corner_(std::move(corner)),
       edge_u_(std::move(edge_u)),
       edge_v_(std::move(edge_v)),
+      normal_(edge_u_.cross(edge_v_).normalized()),
       form_(form) {}
 
 // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997).
 double Flat::meet(const Ray& ray, double nearest) const noexcept {
+  if (std::abs(ray.direction.dot(normal_)) < kNearlyParallel) return kNoHit;
   const Vec3 across = ray.direction.cross(edge_v_);
   const double determinant = edge_u_.dot(across);
-  if (std::abs(determinant) <= kNearlyParallel * std::sqrt(across.squaredNorm())) return kNoHit;
   const double scale = 1.0 / determinant;
   const Vec3 from_corner = ray.origin - corner_;
   const double u = from_corner.dot(across) * scale;
@@ -42,9 +43,7 @@ double Flat::meet(const Ray& ray, double nearest) const noexcept {
   return within(ray, distance, nearest) ? distance : kNoHit;
 }
 
-Vec3 Flat::normal_at(const Vec3& /*p*/) const noexcept {
-  return edge_u_.cross(edge_v_).normalized();
-}
+Vec3 Flat::normal_at(const Vec3& /*p*/) const noexcept { return normal_; }
 
 Bounds Flat::bounds() const noexcept {
   Bounds bounds;

@@ -35,6 +35,7 @@ class Flat {
   Vec3 corner_;
   Vec3 edge_u_;
   Vec3 edge_v_;
+  Vec3 normal_;  // unit
   Form form_;
 };
 
@@ -101,6 +102,7 @@ class Cylinder {
  private:
   [[nodiscard]] double meet_mantle(const Ray& ray, double nearest) const noexcept;
   [[nodiscard]] double meet_ends(const Ray& ray, double nearest) const noexcept;
+  [[nodiscard]] double reach(const Vec3& direction) const noexcept;
 
   Vec3 from_;
   Vec3 axis_;                           // unit
