@@ -21,12 +21,12 @@ struct Item {
   std::size_t line = 0;  // for messages
 };
 
-inline constexpr std::array<std::pair<std::string_view, SurfaceLabel>, 3> kLabelNames{{
+inline constexpr std::array<std::pair<std::string_view, SurfaceLabel>, 3> kLabelChoices{{
     {"structure", SurfaceLabel::structure},
     {"object", SurfaceLabel::object},
     {"dynamic", SurfaceLabel::dynamic},
 }};
-inline constexpr std::array<std::pair<std::string_view, Material>, 3> kMaterialNames{{
+inline constexpr std::array<std::pair<std::string_view, Material>, 3> kMaterialChoices{{
     {"diffuse", Material::diffuse},
     {"glass", Material::glass},
     {"mirror", Material::mirror},
