@@ -200,8 +200,8 @@ TEST(CanRecording, RatesAndAccelerationsHaveTheirScales) {
 }
 
 TEST(MaxRate, IsWhatTheLineCarries) {
-  EXPECT_EQ(max_rate_hz(115200), 157);
-  EXPECT_GE(max_rate_hz(460800), 400);
+  EXPECT_EQ(simulation::max_rate_hz(115200), 157);
+  EXPECT_GE(simulation::max_rate_hz(460800), 400);
 }
 
 }  // namespace
