@@ -32,7 +32,11 @@ void cast_on_mover(const Mover& mover, const PartPose* poses, const Ray& ray, Hi
     if (misses_sphere(ray, pose.middle_world, part.reach)) continue;
     const Ray local{pose.part_from_world * (ray.origin - pose.world_from_part_offset),
                     pose.part_from_world * ray.direction, ray.min_distance_m, ray.max_distance_m};
-    if (const Primitive* met = part.geometry.cast(local, hit)) {
+    constexpr std::size_t kHandful = 4;
+    const bool is_small = part.geometry.primitives().size() <= kHandful;
+    const Primitive* met = is_small ? part.geometry.cast_on_each(local, hit)
+                                    : part.geometry.cast(local, BoxRay(local), hit);
+    if (met != nullptr) {
       const Vec3 p = local.origin + hit.distance_m * local.direction;
       hit.normal = pose.part_from_world.transpose() * normal_at(met->shape, p);
     }
@@ -70,18 +74,16 @@ void SceneAt::move_to(Duration since_start) noexcept {
 
 bool SceneAt::cast(const Ray& ray, Hit& hit) const noexcept {
   hit = {};
-  if (const Primitive* met = scene_->still.cast(ray, hit)) {
+  const BoxRay box_ray(ray);
+  if (const Primitive* met = scene_->still.cast(ray, box_ray, hit)) {
     hit.normal = normal_at(met->shape, ray.origin + hit.distance_m * ray.direction);
   }
-  if (!mover_boxes_.empty()) {
-    const BoxRay box_ray(ray);
-    for (std::size_t four = 0; four < mover_boxes_.size(); ++four) {
-      const float limit = BoxRay::limit_of(std::min(hit.distance_m, ray.max_distance_m));
-      box_ray.meet(mover_boxes_[four], limit, [&](std::size_t lane, float /*enter*/) {
-        const std::size_t mover = 4 * four + lane;
-        cast_on_mover(scene_->movers[mover], poses_.data() + first_pose_[mover], ray, hit);
-      });
-    }
+  for (std::size_t four = 0; four < mover_boxes_.size(); ++four) {
+    const float limit = BoxRay::limit_of(std::min(hit.distance_m, ray.max_distance_m));
+    box_ray.meet(mover_boxes_[four], limit, [&](std::size_t lane, float /*enter*/) {
+      const std::size_t mover = 4 * four + lane;
+      cast_on_mover(scene_->movers[mover], poses_.data() + first_pose_[mover], ray, hit);
+    });
   }
   if (hit.surface == kNoSurface) return false;
   if (hit.normal.dot(ray.direction) > 0.0) hit.normal = -hit.normal;
