@@ -109,11 +109,16 @@ for step in "${steps[@]}"; do
   case "$step" in
     format) check format scripts/check-format.sh ;;
     release) check build-release build_preset release && ctest_preset release ;;
-    asan) check build-asan build_preset asan -DCONVEXCUT_BENCH=OFF && ctest_preset asan ;;
-    # Only what runs on several threads: the other tests cannot race.
+    # Not the second of two variants that differ in what is judged, not in the code that runs.
+    asan)
+      check build-asan build_preset asan -DCONVEXCUT_BENCH=OFF &&
+        ctest_preset asan -E 'HoldsUpNobody/best_effort|PacketLoss.*/Of01|Rotor.*/(9|20)$'
+      ;;
+    # Only what runs on several threads: the other tests cannot race. The largest cloud and the paths of the kernels,
+    # on which threads work in the same way, would be half of the time.
     tsan)
       check build-tsan build_preset tsan -DCONVEXCUT_BENCH=OFF --target threads_tests &&
-        ctest_preset tsan -L threads
+        ctest_preset tsan -L threads -E 'RoomPanorama|EverySimdPath'
       ;;
     fuzz)
       if check build-fuzz build_preset fuzz --target fuzz_targets; then

@@ -197,6 +197,8 @@ HealthCounters Daemon::health_counters() const {
   totals.empty_results = worker.empty_results.value();
   totals.late_results = scans_.counters().late.value();
   totals.dropped_scans = worker.dropped_scans.value() + worker.dropped_results.value();
+  totals.reduced_scans = worker.reduced_scans.value();
+  totals.unturned_scans = worker.unturned_scans.value();
   totals.points_without_orientation = worker.dropped_no_orientation.value();
   totals.late_packets = worker_.packets().late.value();
   totals.ring_overruns = rings_.overruns();
