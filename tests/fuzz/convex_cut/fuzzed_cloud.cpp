@@ -82,7 +82,7 @@ class Builder {
     const std::size_t back = read_.byte();
     if (cloud.size() == 0) return {};
     const std::size_t i = cloud.size() - 1 - std::min(back, cloud.size() - 1);
-    return {double{cloud.x[i]}, double{cloud.y[i]}, double{cloud.z[i]}};
+    return {static_cast<double>(cloud.x[i]), static_cast<double>(cloud.y[i]), static_cast<double>(cloud.z[i])};
   }
 
   void point() {
@@ -118,8 +118,8 @@ class Builder {
     const double y = u * plane.sin_theta + v * plane.cos_theta;
     add(x, y, z);
     for (const float to : {-INFINITY, INFINITY}) {
-      add(double{std::nextafter(static_cast<float>(x), to)}, y, z);
-      add(x, double{std::nextafter(static_cast<float>(y), to)}, z);
+      add(static_cast<double>(std::nextafter(static_cast<float>(x), to)), y, z);
+      add(x, static_cast<double>(std::nextafter(static_cast<float>(y), to)), z);
     }
   }
   // Points along the way from one point to another, and at the hull distance from it.
