@@ -124,13 +124,33 @@ void StreamingCut::finish_group(const CloudView& cloud, std::uint32_t number) no
 CutStatus StreamingCut::finish(const CloudView& cloud, std::span<Label> labels) noexcept {
   if (labels.size() != cloud.size()) return CutStatus::size_mismatch;
   if (add(cloud) != CutStatus::ok) return status_;
+  const auto is_left = [](const Group& group) { return group.done != group.count; };
+  if (2 * static_cast<std::size_t>(std::ranges::count_if(groups_, is_left)) > groups_.size()) {
+    finish_all(cloud, labels);
+    return CutStatus::ok;
+  }
   for (std::uint32_t number = 0; number < groups_.size(); ++number) {
-    if (groups_[number].done != groups_[number].count) finish_group(cloud, number);
+    if (is_left(groups_[number])) finish_group(cloud, number);
   }
   for (std::size_t i = 0; i < size_; ++i) {
     labels[i] = counts_[i] != 0 ? Label::structure : Label::other;
   }
   return CutStatus::ok;
+}
+
+// Where most of the slices are left, all of them at once take less than those left by groups.
+void StreamingCut::finish_all(const CloudView& cloud, std::span<Label> labels) noexcept {
+  index_.build(cloud);
+  worker_.begin(index_, check_cloud(cloud, cloud.size()).extent_m);
+  for (std::uint32_t plane = 0; plane < planes_.end(planes_.count() - 1); ++plane) {
+    worker_.process(planes_.plane(plane), planes_.windows(plane));
+    ++done_.slices;
+  }
+  const std::span<const std::uint32_t> source = index_.source();
+  const std::span<const std::uint8_t> marks = worker_.marks();
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    labels[source[i]] = static_cast<Label>(marks[i]);
+  }
 }
 
 }  // namespace convexcut

@@ -41,13 +41,14 @@ class StreamingCut {
   // all that follow until begin().
   CutStatus add(const CloudView& cloud) noexcept;
 
-  // Does what is left and writes the label of each point. `cloud` as for add().
+  // Does what is left and writes the label of each point. `cloud` as for add(). Afterwards begin()
+  // is next.
   CutStatus finish(const CloudView& cloud, std::span<Label> labels) noexcept;
 
   // Points taken since begin().
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  // How often slices have been done since begin(): with `again`, those whose group had been done
-  // before and got another point.
+  // How often slices have been done since begin(); `again`: those of groups that had been done
+  // before they got another point.
   struct Done {
     std::uint32_t slices = 0;
     std::uint32_t again = 0;
@@ -65,6 +66,7 @@ class StreamingCut {
 
   void take(std::size_t end) noexcept;
   void finish_group(const CloudView& cloud, std::uint32_t number) noexcept;
+  void finish_all(const CloudView& cloud, std::span<Label> labels) noexcept;
 
   float inverse_squared_half_width_;
   std::size_t max_points_;

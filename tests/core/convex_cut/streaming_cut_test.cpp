@@ -124,7 +124,7 @@ TEST(StreamingCut, APointThatComesIntoADoneSliceTakesLabelsBack) {
   ASSERT_GT(cut.done().slices, 200U);
   std::vector<Label> before(cloud.size());
   ASSERT_EQ(reference::label({}, cloud.view(), before), CutStatus::ok);
-  cloud.add(-20.0, -14.0, 6.0);
+  cloud.add(-20.0, -14.0, 6.0);  // in a few of the slices
   std::vector<Label> expected(cloud.size());
   ASSERT_EQ(reference::label({}, cloud.view(), expected), CutStatus::ok);
   std::vector<Label> labels(cloud.size());

@@ -10,6 +10,7 @@
 #include "core/convex_cut/engine.hpp"
 #include "core/convex_cut/reference.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
+#include "core/convex_cut/streaming_cut.hpp"
 #include "core/simd/simd_path.hpp"
 
 namespace convexcut::test {
@@ -195,6 +196,18 @@ class Builder {
   return labels;
 }
 
+// In two pieces at a quarter's and a half's end, then the rest: some slices are done early, and again.
+[[nodiscard]] bool streaming_differs(const FuzzedCloud& input, const std::vector<Label>& expected) {
+  const CloudView all = input.cloud.view();
+  StreamingCut cut(input.parameters, all.size());
+  cut.begin();
+  for (const std::size_t end : {all.size() / 4, all.size() / 2}) {
+    if (cut.add({all.x.first(end), all.y.first(end), all.z.first(end)}) != CutStatus::ok) return true;
+  }
+  std::vector<Label> labels(all.size(), Label::structure);
+  return cut.finish(all, labels) != CutStatus::ok || labels != expected;
+}
+
 }  // namespace
 
 FuzzedCloud fuzzed_cloud(std::span<const std::uint8_t> bytes) { return Builder(bytes).build(); }
@@ -218,6 +231,7 @@ std::string_view differing_path(const FuzzedCloud& input) {
     }
   }
   static_cast<void>(use_simd_path("auto"));
+  if (stride == 1 && streaming_differs(input, expected)) return "streaming";
   return differs;
 }
 
