@@ -10,7 +10,7 @@
 #define HWY_TARGET_INCLUDE "core/convex_cut/polygon_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Behind foreach_target.h.
-#include "core/convex_cut/kernel_lanes-inl.hpp"
+#include "core/simd/kernel_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace convexcut::HWY_NAMESPACE {
@@ -83,6 +83,8 @@ HWY_INLINE std::size_t copy_facing(const PolygonEdges& edges, float least_u, flo
 
 // Two vectors of members at once: an edge is loaded once for both.
 struct Pair {
+  // Written out: GCC compiles an implicit one without NEON's options.
+  HWY_INLINE Pair() noexcept {}
   Float u0, u1;
   Float z0, z1;
   Float depth0, depth1;

@@ -11,7 +11,7 @@
 #define HWY_TARGET_INCLUDE "core/convex_cut/slice_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Behind foreach_target.h.
-#include "core/convex_cut/kernel_lanes-inl.hpp"
+#include "core/simd/kernel_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace convexcut::HWY_NAMESPACE {
