@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "config/value_text.hpp"
+#include "replay/simulation/scene/eight_boxes.hpp"
 #include "replay/simulation/scene/fields.hpp"
-#include "replay/simulation/scene/four_boxes.hpp"
 #include "replay/simulation/scene/group_reader.hpp"
 #include "replay/simulation/scene/mover_reader.hpp"
 #include "replay/simulation/scene/problems.hpp"
