@@ -34,6 +34,7 @@ inline const Vec3 kRoom(8.0, 6.0, 3.0);
                                     const Vec3& high) {
   double range = HUGE_VAL;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0.0) continue;
     const double side = direction[axis] > 0 ? high[axis] : low[axis];
     range = std::min(range, (side - from[axis]) / direction[axis]);
   }

@@ -219,7 +219,7 @@ TEST(Sensor, AMirrorShowsTheRoomBehindItself) {
     const double image = to_side(lidar, shot.direction_lidar, {0, 0, 0}, {15.998, 6, 3});
     ASSERT_NEAR(shot.first.true_range_m, image, 0.06);
   });
-  EXPECT_GT(ghosts, 5'000U);
+  EXPECT_GT(ghosts, 3'000U);
 }
 
 TEST(Sensor, GlassIsSeenThroughAndMirrorsALittle) {
@@ -240,35 +240,42 @@ v = [0, 0, 3]
 material = "glass"
 reflectivity = 0.02
 )");
-  LidarOptions options = perfect();
-  options.dual = true;
-  options.attenuation = true;
-  std::size_t through = 0;
-  std::size_t pane = 0;
-  std::size_t ghosts = 0;
-  std::size_t shots = 0;
-  for_each_shot(scene, options, kRevolution, [&](const Shot& shot) {
-    const Vec3 lidar(3, 2, 1.2);
-    const double at_pane = (8.0 - lidar.x()) / shot.direction_lidar.x();
-    const double straight = to_side(lidar, shot.direction_lidar, {0, 0, 0}, {12, 6, 3});
-    if (at_pane < 0 || at_pane > straight - 0.6) return;
-    ++shots;
-    for (const SimulatedReturn* r : {&shot.first, &shot.second}) {
-      if ((r->flags & kThroughGlass) != 0) {
+  const Vec3 lidar(3, 2, 1.2);
+  for (const bool dual : {false, true}) {
+    LidarOptions options = perfect();
+    options.dual = dual;
+    options.attenuation = true;
+    double shots = 0;
+    double through = 0;
+    double pane = 0;
+    double ghosts = 0;
+    for_each_shot(scene, options, kRevolution, [&](const Shot& shot) {
+      const double at_pane = (8.0 - lidar.x()) / shot.direction_lidar.x();
+      const double straight = to_side(lidar, shot.direction_lidar, {0, 0, 0}, {12, 6, 3});
+      if (at_pane < 0 || at_pane > straight - 0.6) return;
+      shots += 1;
+      for (const SimulatedReturn* r : {&shot.first, &shot.second}) {
+        ghosts += (r->flags & kSpecularGhost) != 0 ? 1 : 0;
+        pane += r->range_2mm != 0 && r->flags == 0 ? 1 : 0;
+        if ((r->flags & kThroughGlass) == 0) continue;
         ASSERT_NEAR(r->true_range_m, straight, 0.06);
         ASSERT_EQ(r->label, SurfaceLabel::structure);
+        through += 1;
       }
+    });
+    ASSERT_GT(shots, 5'000);
+    // The strongest is the wall behind, but where the pane is met on a slant. The other one of two
+    // is the pane itself, or this side of the room mirrored in it, which is fainter than both.
+    EXPECT_GT(through, shots * 0.8);
+    EXPECT_LE(through, shots);
+    EXPECT_LT(ghosts, shots * 0.2);
+    if (dual) {
+      EXPECT_GT(pane, shots * 0.2);
+      EXPECT_GT(ghosts, shots * 0.01);
+    } else {
+      EXPECT_LT(pane, shots * 0.1);
     }
-    through += (shot.second.flags & kThroughGlass) != 0 ? 1U : 0U;
-    pane += scene.surfaces()[shot.first.surface].name == "pane" && shot.first.flags == 0 ? 1U : 0U;
-    ghosts += (shot.first.flags & kSpecularGhost) != 0 ? 1U : 0U;
-  });
-  ASSERT_GT(shots, 5'000U);
-  // Of the strongest nearly all are of the wall behind; faint images of this side of the room come
-  // last where they are longer and enough light is left.
-  EXPECT_GT(through, shots * 95 / 100);
-  EXPECT_GT(ghosts, shots / 100);
-  EXPECT_LT(pane, shots / 10);
+  }
 }
 
 // A post before the wall: 0.3 m or 3 m before it.
@@ -302,8 +309,8 @@ TEST(Sensor, ABeamOnAnEdgeIsSeenBetweenTheTwoSurfacesWhenTheyAreNear) {
   // Two upright edges, 32 lasers, one shot each; at some the parts are as good as equal.
   EXPECT_GT(near.in_the_air, 20U);
   EXPECT_LT(near.in_the_air, 200U);
-  // Pulses 3 m apart are told apart.
-  EXPECT_EQ(far.in_the_air, 0U);
+  // Pulses 3 m apart are told apart; only close to the floor something nearer is behind the post.
+  EXPECT_LT(far.in_the_air, near.in_the_air / 4);
 }
 
 TEST(Sensor, DualReturnHasBothSurfacesOfAnEdge) {
