@@ -44,8 +44,8 @@ std::uint32_t greatest_magnitude_bits(std::span<const float> values) {
   return result;
 }
 
-// direction_modulo_half() of eight or so points at once.
-HWY_INLINE Float direction(Float x, Float y) noexcept {
+// direction() of eight or so points at once.
+HWY_INLINE Float direction_of(Float x, Float y) noexcept {
   const Floats df;
   const Float along = hn::Xor(x, hn::And(y, hn::SignBit(df)));
   const Float width = hn::Abs(x);
@@ -58,7 +58,10 @@ HWY_INLINE Float direction(Float x, Float y) noexcept {
   const Float eighth = hn::Mul(tangent, hn::MulAdd(bend, hn::Sub(one, tangent), one));
   const Float quarter =
       hn::IfThenElse(hn::Gt(width, height), eighth, hn::Sub(hn::Set(df, 2.0F), eighth));
-  return hn::IfThenElse(hn::Lt(along, hn::Zero(df)), hn::Sub(hn::Set(df, 4.0F), quarter), quarter);
+  const Float half = hn::IfThenElse(hn::Lt(along, hn::Zero(df)),
+                                    hn::Sub(hn::Set(df, kHalfTurn<float>), quarter), quarter);
+  const auto below = hn::MaskFromVec(hn::BitCast(df, hn::BroadcastSignBit(hn::BitCast(Ints(), y))));
+  return hn::IfThenElse(below, hn::Add(half, hn::Set(df, kHalfTurn<float>)), half);
 }
 
 HWY_INLINE Int keys_of(Float x, Float y, Float inverse_squared_half_width) noexcept {
@@ -73,8 +76,8 @@ HWY_INLINE Int keys_of(Float x, Float y, Float inverse_squared_half_width) noexc
   constexpr auto kLastShell = static_cast<std::int32_t>(ShellIndex::kShells - 1);
   constexpr auto kLastBucket = static_cast<std::int32_t>(ShellIndex::kBuckets - 1);
   const Int shell = hn::Min(hn::Max(exponent, hn::Zero(di)), hn::Set(di, kLastShell));
-  const Float turn =
-      hn::Mul(direction(x, y), hn::Set(df, static_cast<float>(ShellIndex::kBuckets) / kHalfTurn));
+  const Float turn = hn::Mul(direction_of(x, y),
+                             hn::Set(df, static_cast<float>(ShellIndex::kBuckets) / kTurn<float>));
   const Int bucket = hn::Min(hn::ConvertTo(di, turn), hn::Set(di, kLastBucket));
   constexpr int kBucketBits = std::countr_zero(ShellIndex::kBuckets);
   return hn::Add(hn::ShiftLeft<kBucketBits>(shell), bucket);

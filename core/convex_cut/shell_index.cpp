@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/convex_cut/cloud_kernels.hpp"
 #include "core/convex_cut/direction.hpp"
@@ -28,7 +29,18 @@ ShellIndex::ShellIndex(double half_width_m, std::size_t max_points)
       source_(max_points),
       keys_(max_points + kKernelPadding),
       first_half_starts_(kKeys),
-      starts_(kKeys + 1) {}
+      starts_(kKeys + 1) {
+  for (std::size_t shell = 0; shell < kShells; ++shell) {
+    // |u|² = r² − v², and |v| < d.
+    const double squared_d = half_width_m * half_width_m;
+    const double inner = std::ldexp(squared_d, static_cast<int>(shell)) * (1.0 - kRadiusSlack);
+    const double outer = std::ldexp(squared_d, static_cast<int>(shell) + 1) * (1.0 + kRadiusSlack);
+    least_u_m_[shell] =
+        static_cast<float>(std::sqrt(std::max(inner - squared_d, 0.0)) * (1.0 - kRadiusSlack));
+    most_u_m_[shell] = static_cast<float>(std::sqrt(outer) * (1.0 + kRadiusSlack));
+  }
+  most_u_m_.back() = std::numeric_limits<float>::max();
+}
 
 // A counting sort of two halves at once: points that follow each other often have the same key, and
 // would wait for each other's count.
@@ -68,22 +80,30 @@ void ShellIndex::build(const CloudView& cloud) noexcept {
     place(half + i, second[keys[half + i]]++);
   }
   if (2 * half < size_) place(size_ - 1, second[keys[size_ - 1]]++);
+  find_used_shells();
+}
+
+void ShellIndex::find_used_shells() noexcept {
+  used_shell_count_ = 0;
+  for (std::size_t shell = 0; shell < kShells; ++shell) {
+    const bool used = starts_[shell * kBuckets] != starts_[(shell + 1) * kBuckets];
+    if (used) used_shells_[used_shell_count_++] = shell;
+  }
 }
 
 ShellIndex::Windows ShellIndex::windows(const SlicingPlane& plane) noexcept {
-  constexpr double kBucketsPerUnit = static_cast<double>(kBuckets) / 4.0;
+  constexpr double kBucketsPerUnit = static_cast<double>(kBuckets) / kTurn<double>;
   constexpr auto kAllBuckets = static_cast<std::int64_t>(kBuckets);
   Windows windows;
-  windows[0] = {0, static_cast<std::uint16_t>(kBuckets)};
   for (std::size_t shell = 1; shell < kShells; ++shell) {
     const double sine = std::exp2(-0.5 * static_cast<double>(shell)) * (1.0 + kRadiusSlack);
     const double cosine = std::sqrt(1.0 - sine * sine);
     // The plane's direction turned by ∓asin(d/r).
-    const double from = direction_modulo_half(plane.cos_theta * cosine + plane.sin_theta * sine,
-                                              plane.sin_theta * cosine - plane.cos_theta * sine);
-    double to = direction_modulo_half(plane.cos_theta * cosine - plane.sin_theta * sine,
-                                      plane.sin_theta * cosine + plane.cos_theta * sine);
-    if (to < from) to += 4.0;
+    const double from = direction(plane.cos_theta * cosine + plane.sin_theta * sine,
+                                  plane.sin_theta * cosine - plane.cos_theta * sine);
+    double to = direction(plane.cos_theta * cosine - plane.sin_theta * sine,
+                          plane.sin_theta * cosine + plane.cos_theta * sine);
+    if (to < from) to += kTurn<double>;
     const auto first = static_cast<std::int64_t>(std::floor((from - kTurnSlack) * kBucketsPerUnit));
     const auto last = static_cast<std::int64_t>(std::floor((to + kTurnSlack) * kBucketsPerUnit));
     windows[shell] = {static_cast<std::uint16_t>((first + kAllBuckets) % kAllBuckets),

@@ -2,10 +2,11 @@
 //
 // The points of a cloud sorted so that the candidates for a slice lie in a few contiguous ranges.
 //
-// A point at horizontal radius r is within d of a plane through the z axis only if its direction,
-// modulo 180°, is within asin(d/r) of the plane's. So the points are sorted by shell (a range of r)
-// and within a shell by direction: a plane's candidates in a shell are one range, or two where the
-// range passes 180°. Candidates are a superset: the caller decides on |v| < d.
+// A point at horizontal radius r is within d of a plane through the z axis only if its direction is
+// within asin(d/r) of the plane's or of the opposite one. So the points are sorted by shell (a
+// range of r) and within a shell by direction: a plane's candidates in a shell are a range on
+// either side of the axis, or two where a range passes 360°. Candidates are a superset: the caller
+// decides on |v| < d.
 #pragma once
 
 #include <array>
@@ -25,13 +26,20 @@ class ShellIndex {
   // Shell 0: r < √2·d, whose points are candidates of every plane; shell s: √2ˢ·d ≤ r < √2ˢ⁺¹·d;
   // the last one is open. 24 shells reach 2900·d, beyond which a bucket is wider than any slice.
   static constexpr std::size_t kShells = 24;
-  static constexpr std::size_t kBuckets = 1024;  // directions modulo 180°
+  static constexpr std::size_t kBuckets = 1024;  // directions, all round
 
   // Positions [begin, end) of the sorted points.
   struct Range {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
   };
+  // Candidates of a slice: those that are members have u within the bounds, in metres.
+  struct Candidates {
+    Range range;
+    float least_u_m = 0.0F;
+    float most_u_m = 0.0F;
+  };
+  static constexpr std::size_t kMostRanges = 4 * kShells;
 
   // Allocates 18 bytes a point.
   ShellIndex(double half_width_m, std::size_t max_points);
@@ -48,7 +56,8 @@ class ShellIndex {
     return {source_.data(), size_};
   }
 
-  // The buckets that a plane's slice touches in one shell: `count` from `first` on, wrapping.
+  // The buckets that a plane's slice touches in one shell, on the side of u > 0: `count` from
+  // `first` on, wrapping.
   struct Window {
     std::uint16_t first = 0;
     std::uint16_t count = 0;
@@ -56,28 +65,46 @@ class ShellIndex {
   using Windows = std::array<Window, kShells>;
   [[nodiscard]] static Windows windows(const SlicingPlane& plane) noexcept;
 
-  // Calls visit(Range) for every range that may hold points of the slice.
+  // Calls visit(Candidates) for every range that may hold points of the slice.
   template <class Visit>
   void for_each_candidate_range(const Windows& windows, Visit&& visit) const noexcept {
-    for (std::size_t shell = 0; shell < kShells; ++shell) {
+    for (const std::size_t shell : std::span(used_shells_).first(used_shell_count_)) {
       const std::uint32_t* const start = starts_.data() + shell * kBuckets;
-      if (start[0] == start[kBuckets]) continue;
+      const float near = least_u_m_[shell];
+      const float far = most_u_m_[shell];
+      if (shell == 0) {
+        visit(Candidates{{start[0], start[kBuckets]}, -far, far});
+        continue;
+      }
+      const auto visit_from = [&](std::size_t first, float least_u_m, float most_u_m) {
+        const std::size_t last = first + windows[shell].count;
+        const std::size_t wrapped = last > kBuckets ? last - kBuckets : 0;
+        const Range range{start[first], start[last - wrapped]};
+        if (range.begin != range.end) visit(Candidates{range, least_u_m, most_u_m});
+        if (wrapped > 0 && start[0] != start[wrapped]) {
+          visit(Candidates{{start[0], start[wrapped]}, least_u_m, most_u_m});
+        }
+      };
       const std::size_t first = windows[shell].first;
-      const std::size_t last = first + windows[shell].count;
-      const std::size_t wrapped = last > kBuckets ? last - kBuckets : 0;
-      if (start[first] != start[last - wrapped]) visit(Range{start[first], start[last - wrapped]});
-      if (wrapped > 0 && start[0] != start[wrapped]) visit(Range{start[0], start[wrapped]});
+      visit_from(first, near, far);
+      visit_from((first + kBuckets / 2) % kBuckets, -far, -near);
     }
   }
 
  private:
+  void find_used_shells() noexcept;
+
   float inverse_squared_half_width_;
+  std::array<float, kShells> least_u_m_;  // bounds of |u| of members
+  std::array<float, kShells> most_u_m_;
   std::size_t size_ = 0;
   Workspace<float> x_, y_, z_;
   Workspace<std::uint32_t> source_;
   Workspace<std::uint16_t> keys_;  // shell · kBuckets + bucket, in the cloud's order
   std::vector<std::uint32_t> first_half_starts_;
   std::vector<std::uint32_t> starts_;  // of each key in the sorted points, and the end
+  std::array<std::size_t, kShells> used_shells_{};
+  std::size_t used_shell_count_ = 0;
 };
 
 }  // namespace convexcut
