@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "core/cloud.hpp"
+#include "core/convex_cut/cloud_kernels.hpp"
+#include "core/convex_cut/column.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
 #include "core/workspace.hpp"
 
@@ -41,19 +43,38 @@ class ShellIndex {
   };
   static constexpr std::size_t kMostRanges = 4 * kShells;
 
-  // Allocates 18 bytes a point.
-  ShellIndex(double half_width_m, std::size_t max_points);
+  // Allocates 30 bytes a point. threads: that a build is made for.
+  ShellIndex(double half_width_m, std::size_t max_points, unsigned threads);
 
-  // Sorts a cloud of at most max_points points whose coordinates have been checked.
-  // RT: no allocation, no lock, no system call.
+  // Sorts a cloud of at most max_points points whose coordinates have been checked, in the calling
+  // thread. RT: no allocation, no lock, no system call.
   void build(const CloudView& cloud) noexcept;
 
+  // The same in steps for several threads: a counting sort. Every call of a step is made once, in
+  // any thread, and all of them have returned before the next step begins.
+  //  1. begin
+  //  2. count(part) for each part: sorts nothing yet. Returns the bit pattern of the greatest
+  //     magnitude of a coordinate (see greatest_magnitude_bits); when that is beyond
+  //     kMaxCoordinateM, the part has not been counted and the build has to be given up.
+  //  3. lay_out
+  //  4. place(part) for each part
+  //  5. spread(chunk) for each chunk
+  void begin(const CloudView& cloud) noexcept;
+  [[nodiscard]] std::uint32_t count(std::size_t part) noexcept;
+  void lay_out() noexcept;
+  void place(std::size_t part) noexcept;
+  void spread(std::size_t chunk) noexcept;
+  [[nodiscard]] std::size_t parts() const noexcept { return parts_.size(); }
+  [[nodiscard]] std::size_t chunks() const noexcept { return (size_ + kChunk - 1) / kChunk; }
+  static constexpr std::size_t kChunk = 4096;  // points
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
   // The sorted points, and where each one came from.
   [[nodiscard]] CloudView points() const noexcept {
     return {{x_.data(), size_}, {y_.data(), size_}, {z_.data(), size_}};
   }
-  [[nodiscard]] std::span<const std::uint32_t> source() const noexcept {
-    return {source_.data(), size_};
+  [[nodiscard]] std::uint32_t source(std::size_t position) const noexcept {
+    return records_[position].source;
   }
 
   // The buckets that a plane's slice touches in one shell, on the side of u > 0: `count` from
@@ -92,16 +113,22 @@ class ShellIndex {
   }
 
  private:
-  void find_used_shells() noexcept;
+  // Two runs of the cloud, each with its own counts.
+  struct Part {
+    std::array<KeyedPart, 2> runs;
+    std::array<std::vector<std::uint32_t>, 2> counts;  // of each key; then its next place
+    KeyBounds bounds;
+  };
 
   float inverse_squared_half_width_;
   std::array<float, kShells> least_u_m_;  // bounds of |u| of members
   std::array<float, kShells> most_u_m_;
+  CloudView cloud_;  // the one that is being sorted
   std::size_t size_ = 0;
-  Workspace<float> x_, y_, z_;
-  Workspace<std::uint32_t> source_;
+  std::vector<Part> parts_;
   Workspace<std::uint16_t> keys_;  // shell · kBuckets + bucket, in the cloud's order
-  std::vector<std::uint32_t> first_half_starts_;
+  Column<PointRecord> records_;
+  Column<float> x_, y_, z_;
   std::vector<std::uint32_t> starts_;  // of each key in the sorted points, and the end
   std::array<std::size_t, kShells> used_shells_{};
   std::size_t used_shell_count_ = 0;

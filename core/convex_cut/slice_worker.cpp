@@ -67,7 +67,7 @@ void SliceWorker::begin(const ShellIndex& index, float extent_m) noexcept {
   index_ = &index;
   extent_m_ = extent_m;
   tolerance_m_ = kDepthErrorPerExtent * extent_m;
-  std::fill_n(marks_.data(), index.points().size() + kKernelPadding, std::uint8_t{0});
+  std::fill_n(marks_.data(), index.size() + kKernelPadding, std::uint8_t{0});
 }
 
 void SliceWorker::process(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept {

@@ -35,6 +35,9 @@ class SliceWorker {
 
   // Before the first slice of a cloud. extent_m: the greatest magnitude of a coordinate.
   void begin(const ShellIndex& index, float extent_m) noexcept;
+  [[nodiscard]] bool has_begun() const noexcept { return index_ != nullptr; }
+  // The cloud is done with.
+  void forget() noexcept { index_ = nullptr; }
 
   // Finds the members of the plane's slice that are structure. The planes of a cloud may come in
   // any order; neighbours after each other are quickest. RT: no allocation, no lock, no system

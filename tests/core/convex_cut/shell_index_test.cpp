@@ -23,11 +23,12 @@ namespace {
 
 TEST(ShellIndex, HoldsEveryPointOnce) {
   test::Random random(1);
-  ShellIndex index(0.05, 10'000);
+  ShellIndex index(0.05, 10'000, 1);
   for (const test::Distribution& distribution : test::distributions()) {
     const test::Cloud cloud = distribution.make(random);
     index.build(cloud.view());
-    std::vector<std::uint32_t> source(index.source().begin(), index.source().end());
+    std::vector<std::uint32_t> source(index.size());
+    for (std::uint32_t k = 0; k < index.size(); ++k) source[k] = index.source(k);
     for (std::size_t k = 0; k < source.size(); ++k) {
       ASSERT_EQ(index.points().x[k], cloud.x[source[k]]);
       ASSERT_EQ(index.points().y[k], cloud.y[source[k]]);
@@ -42,7 +43,7 @@ TEST(ShellIndex, HoldsEveryPointOnce) {
 TEST(ShellIndex, OffersEveryMemberOfEverySliceOnceWithinBounds) {
   test::Random random(2);
   for (const double half_width_m : {1e-6, 1e-4, 0.05, 2.0, 300.0}) {
-    ShellIndex index(half_width_m, 10'000);
+    ShellIndex index(half_width_m, 10'000, 3);
     for (const test::Distribution& distribution : test::distributions()) {
       const test::Cloud cloud = distribution.make(random);
       index.build(cloud.view());
@@ -52,7 +53,7 @@ TEST(ShellIndex, OffersEveryMemberOfEverySliceOnceWithinBounds) {
         index.for_each_candidate_range(
             ShellIndex::windows(plane), [&](const ShellIndex::Candidates& found) {
               for (std::uint32_t k = found.range.begin; k < found.range.end; ++k) {
-                const std::uint32_t source = index.source()[k];
+                const std::uint32_t source = index.source(k);
                 ++offered[source];
                 if (!is_member(plane, cloud, source, half_width_m)) continue;
                 const double u = plane.along(cloud.x[source], cloud.y[source]);
@@ -75,7 +76,7 @@ TEST(ShellIndex, OffersPointsOnEitherSideOfTheSeamOfDirections) {
   for (const double x : {-50.0, -3.0, 3.0, 50.0}) {
     for (const double y : {-0.04, -1e-7, -0.0, 0.0, 1e-7, 0.04}) cloud.add(x, y, 0);
   }
-  ShellIndex index(0.05, cloud.size());
+  ShellIndex index(0.05, cloud.size(), 2);
   index.build(cloud.view());
   std::size_t offered = 0;
   index.for_each_candidate_range(
