@@ -105,8 +105,8 @@ TEST_F(Simulate, TellsItsSummaryAsJsonAndDrawsARevolution) {
   const ProgramResult made = simulate(
       {"--seconds", "0.3", "--json", "--ghosts", "0.1", "--picture", path("p.png").string()});
   ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.out, AllOf(HasSubstr("\"packets\":542"), HasSubstr("\"seed\":1,"),
-                              HasSubstr("\"times_real_time\":")));
+  EXPECT_THAT(made.out, AllOf(HasSubstr("\"packets\": 542,"), HasSubstr("\"seed\": 1,"),
+                              HasSubstr("\"times_real_time\": ")));
   EXPECT_EQ(text(path("p.png")).substr(1, 3), "PNG");
 }
 
@@ -168,7 +168,7 @@ TEST_F(Simulate, WrongArgumentsAreRefusedInOneLine) {
 }
 
 TEST_F(Simulate, AFullDiskLeavesNothing) {
-  const ProgramResult run = simulate({"--seconds", "1"}, {.file_size_bytes = 300'000});
+  const ProgramResult run = simulate({"--seconds", "1"}, {.terminate_at = {}, .file_size_bytes = 300'000});
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.error_lines(), 1U) << run.err;
   EXPECT_TRUE(left_nothing());
