@@ -5,6 +5,25 @@
 
 namespace convexcut::simulation {
 
+namespace detail {
+
+inline constexpr std::uint64_t kGamma = 0x9E37'79B9'7F4A'7C15;  // 2⁶⁴ / golden ratio, odd
+
+[[nodiscard]] constexpr std::uint64_t mixed(std::uint64_t z) noexcept {
+  z = (z ^ (z >> 30U)) * 0xBF58'476D'1CE4'E5B9;
+  z = (z ^ (z >> 27U)) * 0x94D0'49BB'1331'11EB;
+  return z ^ (z >> 31U);
+}
+
+}  // namespace detail
+
+// What all places of one stream have in common.
+struct RandomStream {
+  RandomStream(std::uint64_t seed, std::uint32_t stream) noexcept
+      : base(detail::mixed(detail::mixed(seed + detail::kGamma) + stream)) {}
+  std::uint64_t base;
+};
+
 // Random numbers that are the same on every machine, and that can be had for any place of a
 // simulation without drawing those before it: a place is a seed, a stream and an index. SplitMix64
 // (G. Steele, D. Lea, C. Flood: "Fast splittable pseudorandom number generators", OOPSLA 2014); the
@@ -14,9 +33,11 @@ class Random {
   // Different streams of one seed are independent, and so are different indices of one stream: a
   // change in what one part of a simulation draws does not change the others.
   Random(std::uint64_t seed, std::uint32_t stream, std::uint64_t index = 0) noexcept
-      : state_(mixed(mixed(mixed(seed + kGamma) + stream) + index)) {}
+      : Random(RandomStream(seed, stream), index) {}
+  Random(const RandomStream& stream, std::uint64_t index) noexcept
+      : state_(detail::mixed(stream.base + index)) {}
 
-  [[nodiscard]] std::uint64_t bits() noexcept { return mixed(state_ += kGamma); }
+  [[nodiscard]] std::uint64_t bits() noexcept { return detail::mixed(state_ += detail::kGamma); }
 
   // 0 ≤ u < 1.
   [[nodiscard]] double uniform() noexcept { return static_cast<double>(bits() >> 11U) * 0x1p-53; }
@@ -39,14 +60,6 @@ class Random {
   }
 
  private:
-  static constexpr std::uint64_t kGamma = 0x9E37'79B9'7F4A'7C15;  // 2⁶⁴ / golden ratio, odd
-
-  [[nodiscard]] static constexpr std::uint64_t mixed(std::uint64_t z) noexcept {
-    z = (z ^ (z >> 30U)) * 0xBF58'476D'1CE4'E5B9;
-    z = (z ^ (z >> 27U)) * 0x94D0'49BB'1331'11EB;
-    return z ^ (z >> 31U);
-  }
-
   std::uint64_t state_;
 };
 

@@ -32,29 +32,34 @@ class Beam {
 
  private:
   static constexpr std::size_t kSides = 4;  // before, next, below, above: opposites are i, i ^ 1
-  struct Side {
-    const Column* column = nullptr;
-    std::size_t laser = 0;
-    bool exists = false;
-  };
+  static constexpr std::size_t kNone = Column::kLasers;
+
   struct Rim {
     bool cast = false;
     bool met = false;
     Ray ray;
     Hit hit;
   };
-  struct Rims {
-    std::array<Side, kSides> sides;
-    std::array<Rim, kSides> rims;
+  using Rims = std::array<Rim, kSides>;
+
+  // The neighbour's column and laser.
+  struct Side {
+    const Column* column = nullptr;
+    std::size_t laser = kNone;
   };
+  [[nodiscard]] Side side(const Neighbourhood& around, std::size_t laser,
+                          std::size_t which) const noexcept;
+  // Bit i: the neighbour at side i may have met another plane.
+  [[nodiscard]] unsigned differing_sides(const Neighbourhood& around,
+                                         std::size_t laser) const noexcept;
+  [[nodiscard]] bool finds_edge(const Neighbourhood& around, std::size_t laser, unsigned sides,
+                                const SceneAt& scene, Rims& rims) const noexcept;
+  void cast(const Neighbourhood& around, std::size_t laser, std::size_t which, const SceneAt& scene,
+            Rim& rim) const noexcept;
 
-  [[nodiscard]] bool finds_edge(const Column& own, std::size_t laser, const SceneAt& scene,
-                                Rims& rims) const noexcept;
-  void cast(const Ray& middle, std::size_t side, const SceneAt& scene, Rims& rims) const noexcept;
-
-  double radius_;  // of the beam at 1 m
-  std::array<Side, Column::kLasers> below_;
-  std::array<Side, Column::kLasers> above_;
+  double radius_;                                     // of the beam at 1 m
+  std::array<std::size_t, Column::kLasers> below_{};  // the laser of the next ring, or kNone
+  std::array<std::size_t, Column::kLasers> above_{};
 };
 
 }  // namespace convexcut::simulation

@@ -12,7 +12,23 @@ namespace {
 constexpr double kFullTurnCentidegrees = 36000.0;
 constexpr std::int64_t kOneQ32 = std::int64_t{1} << 32;
 
+// Beyond what is expected rays are followed only when nothing is there.
+constexpr double kExpectationSlack = 0.01;
+
 }  // namespace
+
+double distance_to_plane(const Ray& ray, const Vec3& normal, const Vec3& point) noexcept {
+  return normal.dot(point - ray.origin) / normal.dot(ray.direction);
+}
+
+bool cast_expecting(const SceneAt& scene, const Ray& ray, double distance_m, Hit& hit) noexcept {
+  if (distance_m > 0.0 && distance_m < ray.max_distance_m) {
+    Ray shorter = ray;
+    shorter.max_distance_m = distance_m + kExpectationSlack;
+    if (scene.cast(shorter, hit)) return true;
+  }
+  return scene.cast(ray, hit);
+}
 
 ColumnCaster::ColumnCaster(const Scene& scene, const RigMotion& motion, const LidarOptions& options)
     : motion_(motion),
@@ -95,10 +111,16 @@ void ColumnCaster::cast(Column& column) {
     scene_steps_[which] = step;
     scenes_[which].move_to(time_of((step - 1) * kFiringsPerSceneStep));
   }
+  const Column& before = columns_[static_cast<std::size_t>((column.firing + 2) % 3)];
+  const bool has_before = before.firing == column.firing - 1;
   for (std::size_t laser = 0; laser < Column::kLasers; ++laser) {
     const Ray& ray = column.rays[laser];
     Hit& hit = column.hits[laser];
-    const bool met = scenes_[which].cast(ray, hit);
+    const double expected =
+        has_before && before.met[laser]
+            ? distance_to_plane(ray, before.hits[laser].normal, before.points[laser])
+            : kUnknownDistance;
+    const bool met = cast_expecting(scenes_[which], ray, expected, hit);
     column.met[laser] = met;
     if (met) column.points[laser] = ray.origin + hit.distance_m * ray.direction;
   }

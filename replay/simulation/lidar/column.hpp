@@ -28,6 +28,14 @@ struct Column {
   std::bitset<kLasers> met;
 };
 
+// Where a ray meets a plane, along its direction; meaningless for one that is parallel.
+[[nodiscard]] double distance_to_plane(const Ray& ray, const Vec3& normal,
+                                       const Vec3& point) noexcept;
+inline constexpr double kUnknownDistance = -1.0;
+
+// SceneAt::cast, faster where the distance is what was expected.
+bool cast_expecting(const SceneAt& scene, const Ray& ray, double distance_m, Hit& hit) noexcept;
+
 // When a firing is, where the rotor is then, and the columns of three firings in a row. One thread.
 class ColumnCaster {
  public:

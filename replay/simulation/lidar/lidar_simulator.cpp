@@ -39,7 +39,7 @@ const LidarOptions& checked(const LidarOptions& o) {
 LidarSimulator::LidarSimulator(const Scene& scene, const RigMotion& motion,
                                const LidarOptions& options, std::uint64_t seed)
     : options_(checked(options)),
-      seed_(seed),
+      random_(seed, kLidarStream),
       caster_(scene, motion, options),
       optics_(scene, options),
       beam_(options.divergence) {}
@@ -57,8 +57,9 @@ void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
   for (std::size_t laser = 0; laser < SimulatedFiring::kLasers; ++laser) {
     SimulatedReturn& first = out.returns[0][laser];
     SimulatedReturn& second = out.returns[1][laser];
-    first = second = {};
-    Random random(seed_, kLidarStream, firing * SimulatedFiring::kLasers + laser);
+    first = {};
+    if (options_.dual) second = {};
+    Random random(random_, firing * SimulatedFiring::kLasers + laser);
     const Chance chance = draw(random);
     if (chance.lost) continue;
     echoes_.clear();

@@ -61,7 +61,7 @@ class LidarSimulator {
                                          Random& random) const noexcept;
 
   LidarOptions options_;
-  std::uint64_t seed_;
+  RandomStream random_;
   ColumnCaster caster_;
   Optics optics_;
   Beam beam_;

@@ -5,11 +5,18 @@
 // distances, which round by parts of themselves, are compared with slack.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "replay/simulation/scene/bounds.hpp"
 #include "replay/simulation/scene/ray.hpp"
@@ -43,6 +50,7 @@ struct FourBoxes {
 
 // The compilers make one instruction of each operation on these.
 using Floats = float __attribute__((vector_size(16)));
+using Masks = std::int32_t __attribute__((vector_size(16)));  // all bits, or none
 
 // A ray as the boxes need it.
 class BoxRay {
@@ -58,10 +66,11 @@ class BoxRay {
       origin_[axis] = all(static_cast<float>(ray.origin[index]));
       inverse_[axis] = all(static_cast<float>(1.0 / safe));
     }
-    least_ = all(static_cast<float>(ray.min_distance_m) * (1.0F - kRelativeSlack) - kSlackM);
+    const float least = static_cast<float>(ray.min_distance_m) * (1.0F - kRelativeSlack) - kSlackM;
+    least_ = all(std::max(least, 0.0F));
   }
 
-  // Calls met(lane, where the ray enters) for each box that the ray may meet before `limit`.
+  // Calls met(lane, where the ray enters, ≥ 0) for each box that the ray may meet before `limit`.
   template <class Met>
   void meet(const FourBoxes& boxes, float limit, Met&& met) const noexcept {
     Floats enter = least_;
@@ -73,9 +82,12 @@ class BoxRay {
       enter = larger(enter, (near - origin_[axis]) * inverse_[axis]);
       leave = smaller(leave, (far - origin_[axis]) * inverse_[axis]);
     }
-    const auto hits = enter <= leave * all(1.0F + kRelativeSlack);
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-      if (hits[lane] != 0) met(lane, enter[lane]);
+    unsigned hits = bits_of(enter <= leave * all(1.0F + kRelativeSlack));
+    FourBoxes::Lanes enters;
+    std::memcpy(enters.data(), &enter, sizeof enter);
+    for (; hits != 0; hits &= hits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(hits));
+      met(lane, enters[lane]);
     }
   }
 
@@ -91,6 +103,16 @@ class BoxRay {
   static Floats all(float value) noexcept { return Floats{value, value, value, value}; }
   static Floats larger(Floats a, Floats b) noexcept { return a > b ? a : b; }
   static Floats smaller(Floats a, Floats b) noexcept { return a < b ? a : b; }
+  // Bit 0 for the first lane, and so on.
+  static unsigned bits_of(Masks masks) noexcept {
+#ifdef __SSE2__
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(masks)));
+#else
+    unsigned bits = 0;
+    for (unsigned lane = 0; lane < 4; ++lane) bits |= masks[lane] != 0 ? 1U << lane : 0U;
+    return bits;
+#endif
+  }
   static Floats load(const FourBoxes::Lanes& lanes) noexcept {
     Floats floats;
     std::memcpy(&floats, lanes.data(), sizeof floats);

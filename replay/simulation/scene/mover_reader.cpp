@@ -24,7 +24,7 @@ constexpr int kMostPeople = 1000;
 
 // The template's items as one rigid body; dynamic, whatever they are where they stand still.
 void take_body(Fields& fields, GroupReader& groups, const std::string& name, MoverItem& item) {
-  const SurfaceLabel label = fields.choice_or("label", kLabelChoices, SurfaceLabel::dynamic);
+  const SurfaceLabel label = fields.choice_or("label", kLabelNames, SurfaceLabel::dynamic);
   const std::vector<Item>* source = groups.named_template(fields);
   if (source == nullptr) return;
   for (Item& part : placed(*source, {}, name, fields.line())) {

@@ -46,7 +46,7 @@ class Assembly {
       item.mover.parts = person_parts(item.person_height_m, numbers.front());
     } else {
       for (Primitive& primitive : item.primitives) primitive.surface = numbers[primitive.surface];
-      item.mover.parts.emplace_back(Geometry(std::move(item.primitives)), Vec3::Zero(), Radians{});
+      item.mover.parts.push_back({Geometry(std::move(item.primitives)), Vec3::Zero(), Radians{}});
     }
     scene_.movers.push_back(std::move(item.mover));
   }

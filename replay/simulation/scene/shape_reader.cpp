@@ -159,9 +159,9 @@ Shapes read_shapes(std::string_view kind, Fields& fields, const std::filesystem:
 SurfaceInfo read_surface(Fields& fields, SurfaceInfo otherwise) {
   SurfaceInfo info;
   info.name = fields.text_or("name", std::move(otherwise.name));
-  info.label = fields.choice_or("label", kLabelChoices, otherwise.label);
+  info.label = fields.choice_or("label", kLabelNames, otherwise.label);
   info.reflectivity = fields.number_or("reflectivity", kPartRange, otherwise.reflectivity);
-  info.material = fields.choice_or("material", kMaterialChoices, otherwise.material);
+  info.material = fields.choice_or("material", kMaterialNames, otherwise.material);
   return info;
 }
 

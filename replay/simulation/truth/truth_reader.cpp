@@ -85,9 +85,8 @@ std::vector<SurfaceInfo> read_surfaces(const toml::table& table,
   for (const toml::node& node : *array) {
     const toml::table* row = node.as_table();
     if (row == nullptr) throw TruthError(file.string() + ": scene.surface: expected tables");
-    const auto label = named<SurfaceLabel>(kLabelNames, wanted<std::string>(*row, "label", file));
-    const auto material =
-        named<Material>(kMaterialNames, wanted<std::string>(*row, "material", file));
+    const auto label = named_in(kLabelNames, wanted<std::string>(*row, "label", file));
+    const auto material = named_in(kMaterialNames, wanted<std::string>(*row, "material", file));
     if (!label || !material) {
       throw TruthError(file.string() + ": scene.surface: an unknown label or material");
     }
