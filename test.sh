@@ -2,7 +2,7 @@
 # Builds and checks everything, as continuous integration does, and closes with the counts.
 #   ./test.sh            all that CI runs (about 25 minutes on two cores)
 #   ./test.sh --quick    release build and its tests only
-#   ./test.sh STEP …     chosen steps: format release asan tsan fuzz bench soak vm,
+#   ./test.sh STEP …     chosen steps: format release asan tsan aarch64 fuzz bench soak vm,
 #                        and tidy, analyze
 # FUZZ_SECONDS (20) is the time of each fuzz target.
 set -uo pipefail
@@ -11,7 +11,7 @@ cd "$(dirname "$0")"
 case "${1:-}" in
   -h | --help) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
   --quick) steps=(format release) ;;
-  "") steps=(format release asan tsan fuzz bench soak vm) ;;
+  "") steps=(format release asan tsan aarch64 fuzz bench soak vm) ;;
   *) steps=("$@") ;;
 esac
 
@@ -120,6 +120,7 @@ for step in "${steps[@]}"; do
       check build-tsan build_preset tsan -DCONVEXCUT_BENCH=OFF --target threads_tests &&
         ctest_preset tsan -L threads -E 'RoomPanorama|EverySimdPath'
       ;;
+    aarch64) check build-aarch64 scripts/check-aarch64.sh build && ctest_preset aarch64 ;;
     fuzz)
       if check build-fuzz build_preset fuzz --target fuzz_targets; then
         for target in build/fuzz/fuzz/fuzz_*; do
@@ -135,7 +136,7 @@ for step in "${steps[@]}"; do
     vm) check build-for-vm build_preset release && guest_checks ;;
     tidy) check tidy scripts/check-tidy.sh ;;
     analyze) check analyze scripts/check-tidy.sh analyze ;;
-    *) echo "test.sh: unknown step '$step': expected format release asan tsan fuzz bench soak vm tidy analyze" >&2; exit 2 ;;
+    *) echo "test.sh: unknown step '$step': expected format release asan tsan aarch64 fuzz bench soak vm tidy analyze" >&2; exit 2 ;;
   esac
 done
 

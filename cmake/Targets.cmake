@@ -46,7 +46,8 @@ function(convexcut_test name)
                          PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}")
   else()
     add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
+    set_tests_properties(${name} PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}"
+                         ENVIRONMENT CONVEXCUT_TEST_PERCENT=${CONVEXCUT_TEST_PERCENT})
   endif()
 endfunction()
 
