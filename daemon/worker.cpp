@@ -169,6 +169,8 @@ bool Worker::hand_over(HostTime now, Result& slot) noexcept {
   slot.scan.index = next_index_++;
   counters_.scans.add();
   counters_.dropped_no_orientation.add(slot.scan.dropped_no_orientation);
+  counters_.scans_without_position.add(pipeline_.scans_without_position() -
+                                       counters_.scans_without_position.value());
   return true;
 }
 

@@ -39,6 +39,7 @@ struct WorkerCounters {
   Counter reduced_scans;           // computed with less than full effort
   Counter unturned_scans;          // given out because no revolution ended in time
   Counter dropped_no_orientation;  // points
+  Counter scans_without_position;  // though there are poses
   Counter clock_steps;             // the host's clock was set
   Counter dropped_by_clock_step;   // packets and samples that were stamped before it
 };

@@ -92,6 +92,7 @@ void copy_header(const Scan& scan, HostTime stamp, LevelledScan& levelled) noexc
   levelled.dropped_no_orientation = 0;
   levelled.overflow_returns = scan.overflow_returns;
   levelled.structure_points = 0;
+  levelled.position_m.reset();
 }
 
 Rotation to_matrix(const Quaternion& q) noexcept {

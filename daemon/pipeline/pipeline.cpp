@@ -126,6 +126,10 @@ bool Pipeline::level_next(HostTime now, LevelledScan& out) noexcept {
   const WaitingScan& waiting = waiting_[first_waiting_];
   if (!ready(waiting, now)) return false;
   level_scan(waiting, out);
+  if (options_.positions) {
+    out.position_m = options_.positions->at(out.stamp);
+    scans_without_position_ += out.position_m ? 0U : 1U;
+  }
   scan_period_ = period_after(waiting.scan);
   pop_waiting();
   return true;
