@@ -22,7 +22,9 @@ function(convexcut_program name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS})
 endfunction()
 
-# convexcut_test(NAME SOURCES ... LIBS ...): one GoogleTest program; each TEST is a ctest of its own.
+# convexcut_test(NAME SOURCES ... LIBS ... LABELS ...): one GoogleTest program. Each TEST is a ctest of its own, or
+# without CONVEXCUT_CASES the program is one; labels: `threads`: worth running under ThreadSanitizer; `programs`: runs
+# the programs in real time, always case by case so that they wait beside each other.
 function(convexcut_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
@@ -32,12 +34,20 @@ function(convexcut_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   # SYSTEM silences nothing of ours: GoogleTest's own macros are what -Wconversion would flag.
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} convexcut_test_support GTest::gmock GTest::gtest_main)
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  # Headers are most of what a test file costs to compile: read once for eight files. Names at
+  # namespace scope have to differ within a test program therefore.
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
+                                           UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   if("threads" IN_LIST ARG_LABELS)
     add_dependencies(threads_tests ${name})
   endif()
-  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}")
+  if(CONVEXCUT_CASES OR "programs" IN_LIST ARG_LABELS)
+    gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                         PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}")
+  else()
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
+  endif()
 endfunction()
 
 # convexcut_fuzz(NAME SOURCES ... LIBS ...): one libFuzzer target.

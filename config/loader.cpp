@@ -105,8 +105,22 @@ Found value_of_override(const Key& key, std::string_view text) {
   return {std::string(text)};
 }
 
+// What a file can hold: valid UTF-8.
+bool is_toml_text(std::string_view text) {
+  try {
+    static_cast<void>(toml::parse("value = " + quoted(text)));
+    return true;
+  } catch (const toml::parse_error&) {
+    return false;
+  }
+}
+
 void take_override(const std::string& override_text, Draft& draft) {
   const std::string place = "--set " + printable(override_text);
+  if (!is_toml_text(override_text)) {
+    draft.report(place, "expected text in UTF-8");
+    return;
+  }
   const std::size_t equals = override_text.find('=');
   if (equals == std::string::npos) {
     draft.report(place, "expected key=value");

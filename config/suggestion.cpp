@@ -86,4 +86,10 @@ std::string suggest_section(std::string_view unknown) {
   return nearest.question();
 }
 
+std::string suggest(std::string_view unknown, std::span<const std::string_view> known) {
+  Nearest nearest;
+  for (const std::string_view each : known) nearest.offer(each, slip(unknown, each));
+  return nearest.question();
+}
+
 }  // namespace convexcut::config

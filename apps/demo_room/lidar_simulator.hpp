@@ -7,15 +7,20 @@
 #include <array>
 #include <cstdint>
 
-#include "apps/demo_room/hdl32e_packets.hpp"
-#include "apps/demo_room/random.hpp"
 #include "apps/demo_room/rig_motion.hpp"
 #include "apps/demo_room/scene.hpp"
 #include "core/angle.hpp"
 #include "core/time.hpp"
 #include "drivers/velodyne/model.hpp"
+#include "replay/simulation/random.hpp"
+#include "replay/simulation/wire/hdl32e_packets.hpp"
 
 namespace convexcut::sim {
+
+namespace layout = velodyne::wire_layout;
+using simulation::DataBlock;
+using simulation::LaserReturn;
+using simulation::Random;
 
 struct LidarOptions {
   double rotor_hz = 10.0;

@@ -67,8 +67,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.footer(kExample);
 }
 
-void check_together(const SerialImuOptions& imu) {
-  const std::int64_t most = max_rate_hz(imu.baud);
+void check_together(const simulation::SerialImuOptions& imu) {
+  const std::int64_t most = simulation::max_rate_hz(imu.baud);
   if (imu.rate_hz <= most) return;
   throw command_line::UsageError("--imu-rate-hz: " + std::to_string(imu.baud) +
                                  " baud carry at most " + std::to_string(most) +

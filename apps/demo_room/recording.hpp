@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <functional>
 
-#include "apps/demo_room/imu_simulator.hpp"
 #include "apps/demo_room/lidar_simulator.hpp"
 #include "apps/demo_room/rig_motion.hpp"
 #include "apps/demo_room/scene.hpp"
 #include "core/return_batch.hpp"
 #include "core/time.hpp"
+#include "replay/simulation/wire/imu_simulator.hpp"
 
 namespace convexcut::sim {
 
@@ -26,8 +26,8 @@ struct RecordingOptions {
   PpsState pps = PpsState::locked;
   RigMotionOptions motion{};
   LidarOptions lidar{};
-  SerialImuOptions serial_imu{};
-  CanImuOptions can_imu{};
+  simulation::SerialImuOptions serial_imu{};
+  simulation::CanImuOptions can_imu{};
 };
 
 // Packets done and packets in all.

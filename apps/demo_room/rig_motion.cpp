@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-namespace convexcut::sim {
-namespace {
+#include "replay/simulation/rig/attitude.hpp"
 
-constexpr double kGravity = 9.81;  // m/s²
+namespace convexcut::sim {
+
+using simulation::Attitude;
+
+namespace {
 
 // Roll and pitch swing at frequencies without a small common multiple: the lean never repeats
 // within a demo. Phases differ, so that the rig does not start upright.
@@ -18,11 +21,6 @@ struct Swing {
 constexpr Swing kRollSwing{.hz = 0.31, .phase = 0.4};
 constexpr Swing kPitchSwing{.hz = 0.23, .phase = 1.9};
 
-struct Attitude {  // roll, pitch, yaw as in core/geometry.hpp, radians
-  double roll, pitch, yaw;
-  double roll_rate, pitch_rate, yaw_rate;  // rad/s
-};
-
 Attitude attitude(const RigMotionOptions& options, Duration since_start) noexcept {
   const double t = std::chrono::duration<double>(since_start).count();
   // cos(lean) = cos(roll)·cos(pitch): with both at tilt/√2 the lean stays within the tilt.
@@ -30,17 +28,12 @@ Attitude attitude(const RigMotionOptions& options, Duration since_start) noexcep
   const double turn = options.turn_per_second.to_radians().value;
   const double roll_omega = 2.0 * std::numbers::pi * kRollSwing.hz;
   const double pitch_omega = 2.0 * std::numbers::pi * kPitchSwing.hz;
-  return {.roll = amplitude * std::sin(roll_omega * t + kRollSwing.phase),
-          .pitch = amplitude * std::sin(pitch_omega * t + kPitchSwing.phase),
-          .yaw = turn * t,
-          .roll_rate = amplitude * roll_omega * std::cos(roll_omega * t + kRollSwing.phase),
-          .pitch_rate = amplitude * pitch_omega * std::cos(pitch_omega * t + kPitchSwing.phase),
-          .yaw_rate = turn};
-}
-
-Quaternion rotation(const Attitude& a) noexcept {
-  return to_quaternion(
-      {to_degrees(Radians{a.roll}), to_degrees(Radians{a.pitch}), to_degrees(Radians{a.yaw})});
+  return {.roll = {amplitude * std::sin(roll_omega * t + kRollSwing.phase)},
+          .pitch = {amplitude * std::sin(pitch_omega * t + kPitchSwing.phase)},
+          .yaw = {turn * t},
+          .roll_rad_s = amplitude * roll_omega * std::cos(roll_omega * t + kRollSwing.phase),
+          .pitch_rad_s = amplitude * pitch_omega * std::cos(pitch_omega * t + kPitchSwing.phase),
+          .yaw_rad_s = turn};
 }
 
 }  // namespace
@@ -52,12 +45,8 @@ Quaternion RigMotion::q_level_from_rig(Duration since_start) const noexcept {
 RigState RigMotion::state(Duration since_start) const noexcept {
   const Attitude a = attitude(options_, since_start);
   const Quaternion q = rotation(a);
-  // Body rates of R = Rz(yaw)·Ry(pitch)·Rx(roll).
-  const Vec3 omega(
-      a.roll_rate - a.yaw_rate * std::sin(a.pitch),
-      a.pitch_rate * std::cos(a.roll) + a.yaw_rate * std::cos(a.pitch) * std::sin(a.roll),
-      -a.pitch_rate * std::sin(a.roll) + a.yaw_rate * std::cos(a.pitch) * std::cos(a.roll));
-  return {q, omega, q.conjugate() * Vec3(0.0, 0.0, kGravity)};
+  // The rig does not travel: gravity alone.
+  return {q, body_rates_rad_s(a), q.conjugate() * Vec3(0.0, 0.0, simulation::kGravity)};
 }
 
 }  // namespace convexcut::sim

@@ -7,6 +7,7 @@
 #include "core/angle.hpp"
 #include "core/geometry.hpp"
 #include "core/time.hpp"
+#include "replay/simulation/rig/rig_state.hpp"
 
 namespace convexcut::sim {
 
@@ -15,11 +16,7 @@ struct RigMotionOptions {
   Degrees turn_per_second{12.0};  // about the vertical, counter-clockwise seen from above
 };
 
-struct RigState {
-  Quaternion q_level_from_imu;
-  Vec3 angular_velocity_rad_s;  // in imu
-  Vec3 specific_force_m_s2;     // in imu: gravity alone, since the rig does not travel
-};
+using simulation::RigState;
 
 class RigMotion {
  public:

@@ -80,6 +80,7 @@ void copy_header(const Scan& scan, HostTime stamp, LevelledScan& levelled) noexc
   levelled.end = scan.end;
   levelled.stamp = stamp;
   levelled.last_firing = stamp + (scan.last_firing - scan.first_firing);
+  levelled.first_firing = scan.first_firing;
   levelled.coverage = scan.coverage();
   levelled.dropped_no_orientation = 0;
   levelled.overflow_returns = scan.overflow_returns;

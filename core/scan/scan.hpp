@@ -60,6 +60,7 @@ struct LevelledScan {
   ScanEnd end = ScanEnd::cut;
   HostTime stamp{};
   HostTime last_firing{};
+  LidarTime first_firing{};  // the stamp on the sensor's own clock
   double coverage = 0.0;
   std::uint32_t dropped_no_orientation = 0;  // points without an orientation at their firing time
   std::uint32_t overflow_returns = 0;
@@ -79,6 +80,7 @@ struct LevelledScan {
     index = 0;
     end = ScanEnd::cut;
     stamp = last_firing = {};
+    first_firing = {};
     coverage = 0.0;
     dropped_no_orientation = overflow_returns = structure_points = 0;
     x.clear();

@@ -126,7 +126,14 @@ std::vector<HealthLine> HealthChanges::lines(const HealthSnapshot& snapshot) {
     }
     lines.push_back(std::move(line));
   }
-  if (snapshot.state != daemon_) {
+  if (snapshot.state == DaemonState::ok || snapshot.state == DaemonState::starting) told_.clear();
+  bool has_new_reason = false;
+  if (snapshot.state == DaemonState::degraded || snapshot.state == DaemonState::faulty) {
+    for (const Reason& reason : snapshot.reasons) {
+      has_new_reason = told_.insert(reason.text).second || has_new_reason;
+    }
+  }
+  if (snapshot.state != daemon_ || has_new_reason) {
     HealthLine line{level_of(snapshot.state),
                     "daemon",
                     {{"state", name_of(snapshot.state)}, {"was", name_of(daemon_)}}};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +26,8 @@ struct HealthLine {
 [[nodiscard]] std::vector<HealthLine> detail_lines(const HealthSnapshot& snapshot);
 
 // Finds what has changed since the snapshot before: a line each for a source or the daemon that has
-// another state. One thread.
+// another state, and for a daemon that has one more reason for the state it is in; each reason is
+// told once until it is well again. One thread.
 class HealthChanges {
  public:
   [[nodiscard]] std::vector<HealthLine> lines(const HealthSnapshot& snapshot);
@@ -33,6 +35,7 @@ class HealthChanges {
  private:
   std::map<std::string, SourceState> sources_;
   DaemonState daemon_ = DaemonState::starting;
+  std::set<std::string> told_;  // reasons, since the daemon was well
 };
 
 void write(const HealthLine& line);

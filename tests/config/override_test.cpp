@@ -77,6 +77,12 @@ TEST(Override, CannotSmuggleInAnotherKey) {
                           "found \"1\\nother=2\""));
 }
 
+TEST(Override, HasToBeUtf8AsAFileHasToBe) {
+  EXPECT_EQ(with({"dds.profile=/etc/x\u00B4y.xml"}).dds.profile, "/etc/x\u00B4y.xml");
+  EXPECT_THAT(errors_of("", {"dds.profile=/etc/x\xB4y.xml"}),
+              ElementsAre("--set dds.profile=/etc/x\xB4y.xml: expected text in UTF-8"));
+}
+
 TEST(Override, BracketsAreNoTableAndNoArray) {
   EXPECT_THAT(errors_of("", {"convex_cut.planes=[1, 2]", "convex_cut.planes={ a = 1 }"}),
               ElementsAre("--set convex_cut.planes=[1, 2]: expected an integer 1 … 36000, found an "

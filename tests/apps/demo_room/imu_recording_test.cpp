@@ -25,7 +25,7 @@ using test::TemporaryDirectory;
 constexpr std::int64_t kStartNs = 1'772'359'198'000'000'000;  // 2026-03-01 09:59:58 UTC
 
 // Both devices on the true clock, so that samples of the same number are of the same time.
-RecordingOptions exact() {
+RecordingOptions exact_imus() {
   RecordingOptions options;
   options.length = 2s;
   options.imu_margin = 0s;
@@ -49,14 +49,14 @@ std::vector<MiniCanFrame> can(const RecordingOptions& options) {
 }
 
 TEST(SerialRecording, EveryFrameIsWholeAndItsChecksumRight) {
-  const PcapFile pcap = serial(exact());
+  const PcapFile pcap = serial(exact_imus());
   EXPECT_EQ(pcap.link_type, 147U);                 // USER0
   EXPECT_EQ(test::imu_frames(pcap).size(), 200U);  // imu_frames throws on any other byte
 }
 
 TEST(SerialRecording, CounterWrapsAndTimeStepsByTheRate) {
   for (const std::int64_t hz : {100, 400}) {
-    RecordingOptions options = exact();
+    RecordingOptions options = exact_imus();
     options.serial_imu.rate_hz = hz;
     options.serial_imu.baud = 921600;
     const auto frames = test::imu_frames(serial(options));
@@ -75,7 +75,7 @@ TEST(SerialRecording, ReadsAreUnevenAndCutFramesApart) {
   std::set<std::size_t> sizes;
   bool several_frames_touched = false;
   std::size_t at = 0;
-  for (const test::PcapRecord& record : serial(exact()).records) {
+  for (const test::PcapRecord& record : serial(exact_imus()).records) {
     sizes.insert(record.bytes.size());
     several_frames_touched |= at / 73 != (at + record.bytes.size() - 1) / 73;
     at += record.bytes.size();
@@ -85,7 +85,7 @@ TEST(SerialRecording, ReadsAreUnevenAndCutFramesApart) {
 }
 
 TEST(SerialRecording, NoByteIsReadBeforeTheLineCanHaveBroughtIt) {
-  const RecordingOptions options = exact();
+  const RecordingOptions options = exact_imus();
   const PcapFile pcap = serial(options);
   std::int64_t previous = 0;
   std::int64_t bytes = 0;
@@ -107,7 +107,7 @@ TEST(SerialRecording, NoByteIsReadBeforeTheLineCanHaveBroughtIt) {
 }
 
 TEST(SerialRecording, ValuesAreTheRigs) {
-  const RecordingOptions options = exact();
+  const RecordingOptions options = exact_imus();
   const RigMotion motion(options.motion);
   const auto frames = test::imu_frames(serial(options));
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -128,7 +128,7 @@ TEST(SerialRecording, ValuesAreTheRigs) {
 }
 
 TEST(SerialRecording, AFastDeviceClockShowsInTheArrivals) {
-  RecordingOptions options = exact();
+  RecordingOptions options = exact_imus();
   options.serial_imu.clock.fast_by_ppm = 10'000.0;  // 1 %
   // 2 s of the device are 1.98 s of the host: the last frame's arrival tells.
   const std::int64_t last = serial(options).records.back().stamp_ns - kStartNs;
@@ -136,7 +136,7 @@ TEST(SerialRecording, AFastDeviceClockShowsInTheArrivals) {
 }
 
 TEST(SerialRecording, BeginsBeforeTheLidarAndEndsAfterIt) {
-  RecordingOptions options = exact();
+  RecordingOptions options = exact_imus();
   options.imu_margin = 200ms;
   const PcapFile pcap = serial(options);
   const auto frames = test::imu_frames(pcap);
@@ -149,7 +149,7 @@ TEST(SerialRecording, BeginsBeforeTheLidarAndEndsAfterIt) {
 }
 
 TEST(CanRecording, AGroupIsTimeCounterAndTheThreeValues) {
-  const auto frames = can(exact());
+  const auto frames = can(exact_imus());
   ASSERT_EQ(frames.size(), 200U * 5);
   constexpr std::uint32_t kIds[] = {0x005, 0x006, 0x021, 0x032, 0x034};
   constexpr std::size_t kSizes[] = {4, 2, 8, 6, 6};
@@ -160,7 +160,7 @@ TEST(CanRecording, AGroupIsTimeCounterAndTheThreeValues) {
 }
 
 TEST(CanRecording, SampleTimeStepsByTheRateAndStampsNeverGoBack) {
-  const auto frames = can(exact());
+  const auto frames = can(exact_imus());
   const auto micros = [&](std::size_t group) {
     const auto& d = frames[5 * group].data;
     return std::uint32_t{d[0]} << 24U | std::uint32_t{d[1]} << 16U | std::uint32_t{d[2]} << 8U |
@@ -173,8 +173,8 @@ TEST(CanRecording, SampleTimeStepsByTheRateAndStampsNeverGoBack) {
 }
 
 TEST(CanRecording, OrientationIsThatOfTheSerialImuWithinResolution) {
-  const auto serial_frames = test::imu_frames(serial(exact()));
-  const auto can_frames = can(exact());
+  const auto serial_frames = test::imu_frames(serial(exact_imus()));
+  const auto can_frames = can(exact_imus());
   ASSERT_EQ(can_frames.size(), 5 * serial_frames.size());
   for (std::size_t i = 0; i < serial_frames.size(); ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -185,7 +185,7 @@ TEST(CanRecording, OrientationIsThatOfTheSerialImuWithinResolution) {
 }
 
 TEST(CanRecording, RatesAndAccelerationsHaveTheirScales) {
-  const RecordingOptions options = exact();
+  const RecordingOptions options = exact_imus();
   const RigMotion motion(options.motion);
   const auto frames = can(options);
   for (std::size_t i = 0; i < frames.size() / 5; ++i) {
@@ -200,8 +200,8 @@ TEST(CanRecording, RatesAndAccelerationsHaveTheirScales) {
 }
 
 TEST(MaxRate, IsWhatTheLineCarries) {
-  EXPECT_EQ(max_rate_hz(115200), 157);
-  EXPECT_GE(max_rate_hz(460800), 400);
+  EXPECT_EQ(simulation::max_rate_hz(115200), 157);
+  EXPECT_GE(simulation::max_rate_hz(460800), 400);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ using test::TemporaryDirectory;
 // Seconds from the first packet to the hour, in the demo's time.
 constexpr Duration kToTheHour = 2s;
 
-RecordingOptions exact() {
+RecordingOptions exact_lidar() {
   RecordingOptions options;
   options.length = 150ms;
   options.furnishing = Furnishing::empty;
@@ -48,7 +48,7 @@ std::vector<MiniDataPacket> packets(const RecordingOptions& options) {
 }
 
 TEST(LidarRecording, HoldsTheTwoDatagramsOfTheSensor) {
-  const PcapFile pcap = recorded(exact());
+  const PcapFile pcap = recorded(exact_lidar());
   EXPECT_EQ(pcap.link_type, 1U);  // Ethernet
   std::size_t data = 0;
   std::size_t position = 0;
@@ -67,7 +67,7 @@ TEST(LidarRecording, HoldsTheTwoDatagramsOfTheSensor) {
 }
 
 TEST(LidarRecording, EveryBlockIsFlaggedAndThePacketSaysWhatItIs) {
-  for (const MiniDataPacket& packet : packets(exact())) {
+  for (const MiniDataPacket& packet : packets(exact_lidar())) {
     for (const test::MiniBlock& block : packet.blocks) ASSERT_EQ(block.flag, 0xEEFF);
     ASSERT_EQ(packet.mode, 0x37);
     ASSERT_EQ(packet.product, 0x21);
@@ -75,7 +75,7 @@ TEST(LidarRecording, EveryBlockIsFlaggedAndThePacketSaysWhatItIs) {
 }
 
 TEST(LidarRecording, TheCounterStepsAsInRealCaptures) {
-  const auto all = packets(exact());
+  const auto all = packets(exact_lidar());
   int long_steps = 0;
   for (std::size_t i = 1; i < all.size(); ++i) {
     const std::uint32_t step = all[i].timestamp_us - all[i - 1].timestamp_us;
@@ -86,7 +86,7 @@ TEST(LidarRecording, TheCounterStepsAsInRealCaptures) {
 }
 
 TEST(LidarRecording, TheCounterWrapsAtTheHour) {
-  RecordingOptions options = exact();
+  RecordingOptions options = exact_lidar();
   options.length = kToTheHour + 20ms;
   const auto all = packets(options);
   EXPECT_EQ(all.front().timestamp_us, 3'598'000'000U);
@@ -100,7 +100,7 @@ TEST(LidarRecording, TheCounterWrapsAtTheHour) {
 
 TEST(LidarRecording, TheRotorTurnsClockwiseAtItsRate) {
   for (const double hz : {5.0, 10.0, 20.0}) {
-    RecordingOptions options = exact();
+    RecordingOptions options = exact_lidar();
     options.lidar.rotor_hz = hz;
     const double step = 46.08e-6 * hz * 36000.0;
     int previous = -1;
@@ -117,7 +117,7 @@ TEST(LidarRecording, TheRotorTurnsClockwiseAtItsRate) {
 }
 
 TEST(LidarRecording, NoPacketArrivesBeforeItsLastFiringAndNoneOvertakes) {
-  const PcapFile pcap = recorded(exact());
+  const PcapFile pcap = recorded(exact_lidar());
   std::int64_t previous = 0;
   for (const test::PcapRecord& record : pcap.records) {
     ASSERT_GT(record.stamp_ns, previous);
@@ -181,7 +181,7 @@ TEST(LidarRecording, RangesAreThoseOfTheRoom) {
   // 1 mm of rounding to 2 mm, and 1 mm for the azimuth's rounding to 0.01° on slanting walls.
   double worst = 0.0;
   int count = 0;
-  for_each_range(exact(), [&](double range, double truth) {
+  for_each_range(exact_lidar(), [&](double range, double truth) {
     worst = std::max(worst, std::abs(range - truth));
     ++count;
   });
@@ -190,7 +190,7 @@ TEST(LidarRecording, RangesAreThoseOfTheRoom) {
 }
 
 TEST(LidarRecording, LeaningRigsSeeTheSameRoom) {
-  RecordingOptions options = exact();
+  RecordingOptions options = exact_lidar();
   options.motion.tilt = Degrees{20.0};
   options.motion.turn_per_second = Degrees{90.0};
   double worst = 0.0;
@@ -206,7 +206,7 @@ TEST(LidarRecording, LeaningRigsSeeTheSameRoom) {
 }
 
 TEST(LidarRecording, NoiseAndDropoutAreAsAskedFor) {
-  RecordingOptions options = exact();
+  RecordingOptions options = exact_lidar();
   options.lidar.noise_m = 0.02;
   options.lidar.dropout = 0.03;
   double sum = 0.0;
@@ -255,7 +255,7 @@ std::uint32_t timestamp(const test::MiniDatagram& position) {
 }
 
 TEST(LidarRecording, PositionPacketsTellTheTimeOfALockedSensor) {
-  const auto all = positions(exact());
+  const auto all = positions(exact_lidar());
   ASSERT_FALSE(all.empty());
   for (const test::MiniDatagram& position : all) {
     EXPECT_EQ(position.payload[202], 2);  // PPS locked
@@ -270,7 +270,7 @@ TEST(LidarRecording, PositionPacketsTellTheTimeOfALockedSensor) {
 }
 
 TEST(LidarRecording, SentencesHaveTheirChecksum) {
-  const std::string text = sentence(positions(exact()).front());
+  const std::string text = sentence(positions(exact_lidar()).front());
   const std::size_t star = text.find('*');
   ASSERT_EQ(star + 5, text.size());
   int sum = 0;
@@ -279,7 +279,7 @@ TEST(LidarRecording, SentencesHaveTheirChecksum) {
 }
 
 TEST(LidarRecording, MotionSensorsReadAnUprightHousing) {
-  const test::ByteString payload = positions(exact()).front().payload;
+  const test::ByteString payload = positions(exact_lidar()).front().payload;
   const auto word = [&](std::size_t at) { return payload[at] | payload[at + 1] << 8; };
   EXPECT_EQ(word(14), 0x0000);        // gyro 1
   EXPECT_EQ(word(16), 0x1000);        // temperature 1, 25 °C
@@ -288,7 +288,7 @@ TEST(LidarRecording, MotionSensorsReadAnUprightHousing) {
 }
 
 TEST(LidarRecording, WithoutPpsTheCounterIsNotUtcAndSaysSo) {
-  RecordingOptions options = exact();
+  RecordingOptions options = exact_lidar();
   options.pps = PpsState::absent;
   EXPECT_EQ(packets(options).front().timestamp_us, 754'321'000U);
   for (const test::MiniDatagram& position : positions(options)) {

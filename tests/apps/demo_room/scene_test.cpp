@@ -11,10 +11,13 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/demo_room/random.hpp"
 #include "apps/demo_room/rig_motion.hpp"
+#include "replay/simulation/random.hpp"
 
 namespace convexcut::sim {
+
+using simulation::Random;
+
 namespace {
 
 using namespace std::chrono_literals;
@@ -172,31 +175,6 @@ TEST(RigMotion, SpecificForceIsGravityUpwards) {
   const RigState rig = motion.state(1234ms);
   const Vec3 in_level = rig.q_level_from_imu * rig.specific_force_m_s2;
   EXPECT_TRUE(in_level.isApprox(Vec3(0, 0, 9.81), 1e-12));
-}
-
-TEST(Random, IsTheSameOnEveryMachine) {
-  Random random(1, 0);
-  EXPECT_EQ(random.uniform(), 0x1.8451f002ab5d8p-1);
-}
-
-TEST(Random, GaussianHasMeanZeroAndDeviationOne) {
-  Random random(3, 1);
-  double sum = 0;
-  double squares = 0;
-  constexpr int kDraws = 100'000;
-  for (int i = 0; i < kDraws; ++i) {
-    const double g = random.gaussian();
-    sum += g;
-    squares += g * g;
-  }
-  EXPECT_NEAR(sum / kDraws, 0.0, 5 / std::sqrt(kDraws));
-  EXPECT_NEAR(squares / kDraws, 1.0, 5 * std::sqrt(2.0 / kDraws));
-}
-
-TEST(Random, StreamsOfOneSeedDiffer) {
-  Random a(1, 0);
-  Random b(1, 1);
-  EXPECT_NE(a.uniform(), b.uniform());
 }
 
 }  // namespace

@@ -11,22 +11,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/core/scan/rotation.hpp"
 #include "tests/core/scan/synthetic_lidar.hpp"
 
 namespace convexcut {
 namespace {
 
 using namespace std::chrono_literals;
+using test::rpy;
 using testing::Each;
 using testing::ElementsAre;
 using testing::FloatNear;
 
 constexpr HostTime kStamp{Duration{1'795'341'600'000'000'000}};
 constexpr LidarTime kFirst{Duration{1h}};
-
-Quaternion rpy(double roll, double pitch, double yaw) {
-  return to_quaternion({Degrees{roll}, Degrees{pitch}, Degrees{yaw}});
-}
 
 void add_firing(Scan& scan, Duration after_first, const std::vector<Vec3>& p_lidar) {
   const auto first = static_cast<std::uint32_t>(scan.size());

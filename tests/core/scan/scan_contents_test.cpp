@@ -17,19 +17,18 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::Cutting;
+using test::kFirstPacket;
 using test::packet_of;
 using test::SyntheticLidar;
 using test::TimedBatch;
 using testing::ElementsAre;
-
-constexpr LidarTime kStart{Duration{1h}};
 
 TEST(ScanContents, RangeGateIncludesItsBounds) {
   CutOptions options;
   options.min_range_m = 0.5;
   options.max_range_m = 100.0;
   Cutting cut(options);
-  TimedBatch timed = packet_of({100}, kStart, 5);
+  TimedBatch timed = packet_of({100}, kFirstPacket, 5);
   timed.batch.range_m[0] = 0.498F;
   timed.batch.range_m[1] = 0.5F;
   timed.batch.range_m[2] = 50.0F;
@@ -45,7 +44,7 @@ TEST(ScanContents, EchoesAreSelected) {
   using Echoes = CutOptions::Echoes;
   // Ring 0: a single echo. Ring 1: the last is the farther. Ring 2: a strongest that is farther
   // than what the sensor calls last.
-  TimedBatch timed = packet_of({100}, kStart, 5);
+  TimedBatch timed = packet_of({100}, kFirstPacket, 5);
   ReturnBatch& batch = timed.batch;
   batch.ring = {0, 1, 1, 2, 2};
   batch.echo = {Echo::only, Echo::last, Echo::strongest, Echo::last, Echo::strongest};
@@ -76,8 +75,8 @@ TEST(ScanContents, ScanWithoutAnyReturnIsAScan) {
 
 TEST(ScanContents, ReturnsAreCopiedWithTheirTimeAfterTheFirstFiring) {
   Cutting cut;
-  cut.push(packet_of({35985, 0}, kStart, 2));
-  cut.push(packet_of({15}, kStart + 92us, 2, 2));
+  cut.push(packet_of({35985, 0}, kFirstPacket, 2));
+  cut.push(packet_of({15}, kFirstPacket + 92us, 2, 2));
   cut.finish();
   const Scan& scan = cut.scans.at(1);
   EXPECT_THAT(scan.x_lidar, ElementsAre(1, 1, 2, 2));
@@ -91,8 +90,8 @@ TEST(ScanContents, ReturnsAreCopiedWithTheirTimeAfterTheFirstFiring) {
 
 TEST(ScanContents, ReturnsBeyondTheCapacityAreCountedAndTheNextScanIsWhole) {
   Cutting cut({}, 60, 100);
-  cut.push(packet_of({35940, 35955, 35970}, kStart, 32));
-  cut.push(packet_of({5, 20}, kStart + 138us, 16));
+  cut.push(packet_of({35940, 35955, 35970}, kFirstPacket, 32));
+  cut.push(packet_of({5, 20}, kFirstPacket + 138us, 16));
   cut.finish();
   EXPECT_EQ(cut.scans[0].size(), 60U);
   EXPECT_EQ(cut.scans[0].overflow_returns, 36U);
@@ -102,7 +101,7 @@ TEST(ScanContents, ReturnsBeyondTheCapacityAreCountedAndTheNextScanIsWhole) {
 
 TEST(ScanContents, FiringsBeyondTheCapacityAreCountedWithTheirReturns) {
   Cutting cut({}, 1000, 2);
-  cut.push(packet_of({10, 25, 40}, kStart, 3));
+  cut.push(packet_of({10, 25, 40}, kFirstPacket, 3));
   cut.finish();
   EXPECT_EQ(cut.scans[0].firings.size(), 2U);
   EXPECT_EQ(cut.scans[0].size(), 6U);
@@ -116,7 +115,7 @@ TEST(ScanContents, ScanMayBeSwappedForAnother) {
   mine.x_lidar.assign(7, 1.0F);  // the remains of an earlier use
   const float* const storage = mine.x_lidar.data();
   const auto swap = [&](Scan& scan) { std::swap(scan, mine); };
-  const TimedBatch first = packet_of({35985, 0, 15}, kStart, 4);
+  const TimedBatch first = packet_of({35985, 0, 15}, kFirstPacket, 4);
   cutter.push(first.batch, first.first_firing, swap);
   EXPECT_EQ(mine.size(), 4U);
   cutter.finish(swap);
@@ -130,7 +129,7 @@ TEST(ScanContents, SmallerScanThatIsSwappedInOverflowsEarlierAndGrowsNot) {
   Scan mine;
   reserve(mine, 3, 100);
   const auto swap = [&](Scan& scan) { std::swap(scan, mine); };
-  const TimedBatch timed = packet_of({35985, 0, 15}, kStart, 4);
+  const TimedBatch timed = packet_of({35985, 0, 15}, kFirstPacket, 4);
   cutter.push(timed.batch, timed.first_firing, swap);
   cutter.finish(swap);
   EXPECT_EQ(mine.size(), 3U);

@@ -20,12 +20,11 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::Cutting;
+using test::kFirstPacket;
 using test::packet_of;
 using test::SyntheticLidar;
 using test::TimedBatch;
 using testing::ElementsAre;
-
-constexpr LidarTime kStart{Duration{1h}};
 
 CutOptions clock_mode() {
   CutOptions options;
@@ -53,17 +52,17 @@ TEST(ScanCutter, CourtyardRevolutionsHoldTheirExactReturns) {
 
 TEST(ScanCutter, CutIsAtTheFiringNotAtTheDatagram) {
   Cutting cut;
-  cut.push(packet_of({35970, 35985, 0, 15}, kStart));
+  cut.push(packet_of({35970, 35985, 0, 15}, kFirstPacket));
   cut.finish();
   EXPECT_THAT(cut.firings(), ElementsAre(2, 2));
-  EXPECT_EQ(cut.scans[1].first_firing, kStart + 2 * 46'080ns);
-  EXPECT_EQ(cut.scans[0].last_firing, kStart + 46'080ns);
+  EXPECT_EQ(cut.scans[1].first_firing, kFirstPacket + 2 * 46'080ns);
+  EXPECT_EQ(cut.scans[0].last_firing, kFirstPacket + 46'080ns);
   EXPECT_EQ(cut.scans[0].end, ScanEnd::cut);
 }
 
 TEST(ScanCutter, AzimuthOf36000IsTheFirstOfTheNextScan) {
   Cutting cut;
-  cut.push(packet_of({35970, 35985, 36000, 15, 30}, kStart));
+  cut.push(packet_of({35970, 35985, 36000, 15, 30}, kFirstPacket));
   cut.finish();
   EXPECT_THAT(cut.firings(), ElementsAre(2, 3));
 }
@@ -72,15 +71,15 @@ TEST(ScanCutter, CutAzimuthIsConfigurable) {
   CutOptions options;
   options.cut_azimuth = Azimuth::from_centidegrees(9000);
   Cutting cut(options);
-  cut.push(packet_of({8970, 8985, 9000, 9015, 9030}, kStart));
-  cut.push(packet_of({35985, 0, 15}, kStart + 75ms));
+  cut.push(packet_of({8970, 8985, 9000, 9015, 9030}, kFirstPacket));
+  cut.push(packet_of({35985, 0, 15}, kFirstPacket + 75ms));
   cut.finish();
   EXPECT_THAT(cut.firings(), ElementsAre(2, 6));
 }
 
 TEST(ScanCutter, EncoderThatJittersAcrossTheCutCutsOnce) {
   Cutting cut;
-  cut.push(packet_of({35980, 35995, 5, 35998, 10, 35999, 25, 40}, kStart));
+  cut.push(packet_of({35980, 35995, 5, 35998, 10, 35999, 25, 40}, kFirstPacket));
   cut.finish();
   EXPECT_THAT(cut.firings(), ElementsAre(2, 6));
 }
@@ -88,7 +87,7 @@ TEST(ScanCutter, EncoderThatJittersAcrossTheCutCutsOnce) {
 TEST(ScanCutter, SingleImpossibleAzimuthDoesNotCut) {
   for (const std::int64_t wrong : {0, 9000, 18'000, 27'000, 35'990}) {
     Cutting cut;
-    cut.push(packet_of({100, 115, 130, wrong, 160, 175, 190, 205}, kStart));
+    cut.push(packet_of({100, 115, 130, wrong, 160, 175, 190, 205}, kFirstPacket));
     cut.finish();
     EXPECT_THAT(cut.firings(), ElementsAre(8)) << wrong;
   }
@@ -96,7 +95,7 @@ TEST(ScanCutter, SingleImpossibleAzimuthDoesNotCut) {
 
 TEST(ScanCutter, ImpossibleAzimuthIsCounted) {
   Cutting cut;
-  cut.push(packet_of({100, 115, 130, 27'000, 160, 175}, kStart));
+  cut.push(packet_of({100, 115, 130, 27'000, 160, 175}, kFirstPacket));
   EXPECT_EQ(cut.cutter.counters().azimuth_glitches.value(), 1U);
 }
 
@@ -248,8 +247,8 @@ TEST(ScanCutter, ClockWindowsAreExactAndAligned) {
   ASSERT_EQ(cut.scans.size(), 11U);
   for (std::size_t i = 0; i < cut.scans.size(); ++i) {
     const Duration begin = i * 100ms;
-    EXPECT_GE(cut.scans[i].first_firing, kStart + begin);
-    EXPECT_LT(cut.scans[i].last_firing, kStart + begin + 100ms);
+    EXPECT_GE(cut.scans[i].first_firing, kFirstPacket + begin);
+    EXPECT_LT(cut.scans[i].last_firing, kFirstPacket + begin + 100ms);
     EXPECT_EQ(cut.scans[i].expected_firings, 2170U);
   }
   for (std::size_t i = 1; i < 10; ++i) EXPECT_GE(cut.scans[i].coverage(), 0.999);
@@ -258,7 +257,7 @@ TEST(ScanCutter, ClockWindowsAreExactAndAligned) {
 
 TEST(ScanCutter, FiringOnTheEdgeOfAClockWindowIsInTheNext) {
   Cutting cut(clock_mode());
-  cut.push(packet_of({0, 15, 30}, kStart + 100ms - 46'080ns));
+  cut.push(packet_of({0, 15, 30}, kFirstPacket + 100ms - 46'080ns));
   cut.finish();
   EXPECT_THAT(cut.firings(), ElementsAre(1, 2));
 }
@@ -300,8 +299,8 @@ TEST(ScanCutter, SourceThatRestartsEndsTheScan) {
 
 TEST(ScanCutter, BatchesThatOverlapByMicrosecondsKeepTheOrderOfTime) {
   Cutting cut;
-  cut.push(packet_of({100, 115, 130}, kStart));
-  cut.push(packet_of({145, 160, 175}, kStart + 80us));
+  cut.push(packet_of({100, 115, 130}, kFirstPacket));
+  cut.push(packet_of({145, 160, 175}, kFirstPacket + 80us));
   cut.finish();
   ASSERT_THAT(cut.firings(), ElementsAre(6));
   for (std::size_t i = 1; i < 6; ++i) {

@@ -8,12 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/scan/rotation.hpp"
+
 namespace convexcut {
 namespace {
 
-Quaternion rpy(double roll, double pitch, double yaw) {
-  return to_quaternion({Degrees{roll}, Degrees{pitch}, Degrees{yaw}});
-}
+using test::rpy;
+
 Radians degrees(double value) { return Degrees{value}.to_radians(); }
 
 void expect_same(const Quaternion& a, const Quaternion& b) {

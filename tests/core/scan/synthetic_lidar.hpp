@@ -21,6 +21,7 @@ namespace convexcut::test {
 inline constexpr std::uint32_t kFiringPeriodNs = 46'080;
 inline constexpr std::uint32_t kLaserPeriodNs = 1'152;
 inline constexpr std::int64_t kFiringsPerPacket = 12;
+inline constexpr LidarTime kFirstPacket{std::chrono::hours{1}};
 
 struct TimedBatch {
   ReturnBatch batch;
@@ -55,7 +56,7 @@ class SyntheticLidar {
   double rate_hz = 10.0;
   double start_degrees = 0.0;
   double sway_degrees = 0.0;  // by which a rotor that hunts at 1 Hz leads and lags
-  LidarTime start = from_ns<LidarTime>(3'600'000'000'000);
+  LidarTime start = kFirstPacket;
   std::size_t returns_per_firing = 32;
   // Centidegrees that the encoder is off at a firing.
   std::function<std::int64_t(std::int64_t)> encoder_error = [](std::int64_t) { return 0; };

@@ -14,6 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 using ::testing::StartsWith;
 
 std::string text_of(const HealthLine& line) {
@@ -65,6 +66,27 @@ TEST(HealthLog, ChangesAreToldOnceEach) {
   snapshot.state = DaemonState::ok;
   snapshot.reasons.clear();
   EXPECT_THAT(texts_of(changes.lines(snapshot)), ElementsAre("info daemon state=ok was=faulty\n"));
+}
+
+TEST(HealthLog, FurtherReasonIsToldOnceUntilAllIsWell) {
+  HealthChanges changes;
+  HealthSnapshot snapshot = testing::made_up_snapshot();
+  static_cast<void>(changes.lines(snapshot));
+  const std::vector<Reason> first = snapshot.reasons;
+  snapshot.reasons.push_back({Severity::degraded, "lidar losing input"});
+  const auto told = ElementsAre(
+      "error daemon state=faulty was=faulty "
+      "reasons=\"imu absent; results late; lidar losing input\"\n");
+  EXPECT_THAT(texts_of(changes.lines(snapshot)), told);
+  snapshot.reasons = first;
+  EXPECT_THAT(changes.lines(snapshot), IsEmpty());
+  snapshot.reasons.push_back({Severity::degraded, "lidar losing input"});
+  EXPECT_THAT(changes.lines(snapshot), IsEmpty());
+  HealthSnapshot well = snapshot;
+  well.state = DaemonState::ok;
+  well.reasons.clear();
+  static_cast<void>(changes.lines(well));
+  EXPECT_THAT(texts_of(changes.lines(snapshot)), SizeIs(1));
 }
 
 }  // namespace

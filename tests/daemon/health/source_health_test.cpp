@@ -15,9 +15,8 @@ namespace {
 
 using live::LinkState;
 using std::chrono::milliseconds;
-using enum SourceState;
 
-constexpr SourceLimits kLimits;
+constexpr SourceLimits kSourceLimits;
 
 // Observations of an open link, named by what comes over it.
 SourceObservation observed(LinkState link, int error = 0) {
@@ -53,8 +52,9 @@ struct Case {
 };
 
 TEST(SourceState, EveryTransition) {
-  const SourceObservation steady = valid_for(kLimits.recover_after);
-  const SourceObservation brief = valid_for(kLimits.recover_after - Duration{1});
+  using enum SourceState;
+  const SourceObservation steady = valid_for(kSourceLimits.recover_after);
+  const SourceObservation brief = valid_for(kSourceLimits.recover_after - Duration{1});
   const Case cases[] = {
       {"link closed", observed(LinkState::closed), {absent, absent, absent, absent, absent}},
       {"no such device",
@@ -72,10 +72,10 @@ TEST(SourceState, EveryTransition) {
       {"bus off", observed(LinkState::error), {faulty, faulty, faulty, faulty, faulty}},
       {"open, nothing ever", nothing_yet(), {waiting, waiting, stale, stale, waiting}},
       {"open, silent for just too long",
-       silent_for(kLimits.stale_after + Duration{1}),
+       silent_for(kSourceLimits.stale_after + Duration{1}),
        {waiting, waiting, stale, stale, waiting}},
       {"open, silent for not too long",
-       silent_for(kLimits.stale_after),
+       silent_for(kSourceLimits.stale_after),
        {streaming, streaming, streaming, stale, faulty}},
       {"valid, not for long", brief, {streaming, streaming, streaming, stale, faulty}},
       {"valid for long", steady, {streaming, streaming, streaming, streaming, streaming}},
@@ -101,7 +101,7 @@ TEST(SourceState, EveryTransition) {
   for (const Case& c : cases) {
     for (int before = 0; before < kSourceStates; ++before) {
       const auto from = static_cast<SourceState>(before);
-      EXPECT_EQ(name_of(next_state(from, c.now, kLimits)), name_of(c.expected[before]))
+      EXPECT_EQ(name_of(next_state(from, c.now, kSourceLimits)), name_of(c.expected[before]))
           << c.what << ", from " << name_of(from);
     }
   }
@@ -132,6 +132,7 @@ class SourceMonitored : public ::testing::Test {
 };
 
 TEST_F(SourceMonitored, LidarThatIsSwitchedOnLaterUnpluggedAndPluggedInAgain) {
+  using enum SourceState;
   EXPECT_EQ(run(milliseconds{100}, 0.0), absent);
   reading_.link = LinkState::open;
   EXPECT_EQ(run(milliseconds{30'000}, 0.0), waiting);
@@ -147,6 +148,7 @@ TEST_F(SourceMonitored, LidarThatIsSwitchedOnLaterUnpluggedAndPluggedInAgain) {
 }
 
 TEST_F(SourceMonitored, AGapEndsOnlyWhenInputHasBeenThereForASecond) {
+  using enum SourceState;
   reading_.link = LinkState::open;
   run(milliseconds{2'000}, 100.0);
   EXPECT_EQ(run(milliseconds{400}, 0.0), stale);
@@ -155,6 +157,7 @@ TEST_F(SourceMonitored, AGapEndsOnlyWhenInputHasBeenThereForASecond) {
 }
 
 TEST_F(SourceMonitored, ASourceThatStuttersStaysStaleAndDoesNotFlicker) {
+  using enum SourceState;
   reading_.link = LinkState::open;
   run(milliseconds{2'000}, 100.0);
   run(milliseconds{400}, 0.0);
@@ -165,6 +168,7 @@ TEST_F(SourceMonitored, ASourceThatStuttersStaysStaleAndDoesNotFlicker) {
 }
 
 TEST_F(SourceMonitored, NoiseOnTheLineIsFaultyUntilItStops) {
+  using enum SourceState;
   reading_.link = LinkState::open;
   EXPECT_EQ(run(milliseconds{2'000}, 0.0, 400.0), faulty);
   EXPECT_EQ(run(milliseconds{2'500}, 100.0, 0.0), streaming);

@@ -145,15 +145,15 @@ TEST_P(StalledSubscriber, HoldsUpNobody) {
 INSTANTIATE_TEST_SUITE_P(Qos, StalledSubscriber, ::testing::Values("reliable", "best_effort"),
                          [](const auto& test) { return std::string(test.param); });
 
-// More planes than any host cuts in time.
+// More planes than any host cuts in time, and not so many that one scan takes all of it.
 TEST_F(LiveDaemon, LessIsComputedAndSaidWhenTimeIsShort) {
   make_room({"--seconds", "4", "--empty"});
-  start_daemon({"mount.orientation=fixed", "convex_cut.planes=36000"});
+  start_daemon({"mount.orientation=fixed", kSanitized ? "convex_cut.planes=6000" : "convex_cut.planes=36000"});
   BackgroundProgram replay("convexcut", replay_of_lidar());
   std::this_thread::sleep_for(seconds{4});
   const ProgramResult run = daemon_->stop();
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_GT(logged(run.err, "info timing", "reduced_scans"), 10) << run.err;
+  EXPECT_GT(logged(run.err, "info timing", "reduced_scans"), kSanitized ? 0 : 10) << run.err;
   if (!kSanitized) {
     EXPECT_EQ(logged(run.err, "info end", "ring_overruns"), 0);
   }

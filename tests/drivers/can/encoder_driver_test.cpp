@@ -20,7 +20,7 @@ namespace {
 using convexcut::test::RecordingSink;
 using test::make_frame;
 
-constexpr HostTime kStamp = from_ns<HostTime>(1'700'000'000'000'000'000);
+constexpr HostTime kReceived = from_ns<HostTime>(1'700'000'000'000'000'000);
 
 struct AngleSink final : Sink<EncoderSample> {
   EncoderSample* claim() noexcept override { return samples.size() < capacity ? &slot : nullptr; }
@@ -42,11 +42,11 @@ EncoderOptions drive() {
 TEST(EncoderDriver, AFrameIsAnAngleAtTheTimeItBeganOnTheBus) {
   AngleSink sink;
   EncoderDriver driver(drive(), sink);
-  driver.on_frame(make_frame(0x181, "37 06 90 5F 01 00", kStamp));  // 90 000 counts
+  driver.on_frame(make_frame(0x181, "37 06 90 5F 01 00", kReceived));  // 90 000 counts
   ASSERT_EQ(sink.samples.size(), 1U);
   EXPECT_DOUBLE_EQ(to_degrees(sink.samples[0].angle).value, 100.0);
   // 44 bits around 6 bytes at 250 kbit/s.
-  EXPECT_EQ(sink.samples[0].arrival, kStamp - std::chrono::microseconds{368});
+  EXPECT_EQ(sink.samples[0].arrival, kReceived - std::chrono::microseconds{368});
   EXPECT_EQ(driver.counters().samples.value(), 1U);
 }
 
@@ -106,7 +106,7 @@ TEST(BusDevices, EachDeviceGetsItsOwnFrames) {
   RecordingSink samples;
   BusDevices devices({.imu = {}, .encoder = drive()}, samples, angles);
   for (unsigned group = 0; group < 4; ++group) {
-    const HostTime at = kStamp + group * std::chrono::milliseconds{10};
+    const HostTime at = kReceived + group * std::chrono::milliseconds{10};
     CanFrame time = make_frame(0x005, "00000000", at);
     time.data[2] = static_cast<std::byte>(group * 10'000 >> 8U);
     time.data[3] = static_cast<std::byte>(group * 10'000);

@@ -21,7 +21,7 @@ namespace {
 using convexcut::test::RecordingSink;
 using test::make_frame;
 
-constexpr HostTime kStart = from_ns<HostTime>(1'700'000'000'000'000'000);
+constexpr HostTime kFirstSample = from_ns<HostTime>(1'700'000'000'000'000'000);
 
 class BothLines : public testing::Test {
  protected:
@@ -57,11 +57,11 @@ class BothLines : public testing::Test {
     for (const double v : m.acceleration) put_f64(payload, v);
     put(payload, 0xE02004, 3);
     put(payload, 0x00400003, 4);
-    serial_driver_.on_bytes(xsens::test::make_frame(0x36, payload), kStart);
+    serial_driver_.on_bytes(xsens::test::make_frame(0x36, payload), kFirstSample);
   }
 
   void send_frame(std::uint32_t id, const xsens::test::ByteVector& data) {
-    CanFrame frame = make_frame(id, "", kStart + std::chrono::microseconds{500 * sent_++});
+    CanFrame frame = make_frame(id, "", kFirstSample + std::chrono::microseconds{500 * sent_++});
     std::copy(data.begin(), data.end(), frame.data.begin());
     frame.length = static_cast<std::uint8_t>(data.size());
     can_driver_.on_frame(frame);

@@ -27,9 +27,9 @@ using Time = MtConfiguration::Time;
 
 // A line with the device at its other end. What the device says takes `latency` to arrive; where
 // both ends have different rates nothing arrives.
-class Rig final : private MtLine {
+class Dialogue final : private MtLine {
  public:
-  explicit Rig(const MtConfigurationOptions& options = {}, MtiOptions device = {})
+  explicit Dialogue(const MtConfigurationOptions& options = {}, MtiOptions device = {})
       : device_(std::move(device)), baud_(options.baud), configuration(options, *this) {}
 
   void open() { configuration.begin(now_); }
@@ -131,7 +131,7 @@ TEST(MtOutputs, RateIsOneThatTheDeviceHasAndTheLineCarries) {
 }
 
 TEST(MtConfiguration, DeviceIsSetToSendWhatIsWanted) {
-  Rig rig(kUsb);
+  Dialogue rig(kUsb);
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   EXPECT_EQ(rig.device().outputs(), outputs(400));
@@ -143,7 +143,7 @@ TEST(MtConfiguration, DeviceIsSetToSendWhatIsWanted) {
 }
 
 TEST(MtConfiguration, DeviceThatIsAsWantedIsNotWrittenTo) {
-  Rig rig(kUsb);
+  Dialogue rig(kUsb);
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   rig.configuration.end();
@@ -154,7 +154,7 @@ TEST(MtConfiguration, DeviceThatIsAsWantedIsNotWrittenTo) {
 }
 
 TEST(MtConfiguration, DeviceThatWasLeftInConfigurationMeasuresAgain) {
-  Rig rig(kUsb, {.measuring = false});
+  Dialogue rig(kUsb, {.measuring = false});
   rig.open();
   EXPECT_TRUE(rig.becomes(MtState::measuring));
   EXPECT_TRUE(rig.device().measuring());
@@ -162,7 +162,7 @@ TEST(MtConfiguration, DeviceThatWasLeftInConfigurationMeasuresAgain) {
 
 TEST(MtConfiguration, WhatIsNotAnsweredIsAskedAgain) {
   for (std::size_t deaf = 1; deaf <= 3; ++deaf) {
-    Rig rig(kUsb, {.deaf_to = deaf});
+    Dialogue rig(kUsb, {.deaf_to = deaf});
     rig.open();
     ASSERT_TRUE(rig.becomes(MtState::measuring)) << deaf;
     EXPECT_EQ(rig.configuration.counters().timeouts.value(), deaf);
@@ -171,7 +171,7 @@ TEST(MtConfiguration, WhatIsNotAnsweredIsAskedAgain) {
 }
 
 TEST(MtConfiguration, AnswersThatComeTooLateDoNotConfuse) {
-  Rig rig(kUsb);
+  Dialogue rig(kUsb);
   rig.latency = milliseconds{400};  // each after the question was repeated
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
@@ -182,7 +182,7 @@ TEST(MtConfiguration, AnswersThatComeTooLateDoNotConfuse) {
 }
 
 TEST(MtConfiguration, DeviceThatDoesNotAnswerIsLeftInPeaceForEverLonger) {
-  Rig rig(kUsb, {.deaf_to = 1'000'000});
+  Dialogue rig(kUsb, {.deaf_to = 1'000'000});
   rig.measures = false;
   rig.open();
   std::vector<Duration> pauses;
@@ -197,7 +197,7 @@ TEST(MtConfiguration, DeviceThatDoesNotAnswerIsLeftInPeaceForEverLonger) {
 }
 
 TEST(MtConfiguration, DeviceThatComesBackAfterLongIsConfigured) {
-  Rig rig(kUsb);
+  Dialogue rig(kUsb);
   rig.connected = false;
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::no_answer));
@@ -207,7 +207,7 @@ TEST(MtConfiguration, DeviceThatComesBackAfterLongIsConfigured) {
 }
 
 TEST(MtConfiguration, SilentDeviceIsConfiguredAnew) {
-  Rig rig(kUsb);
+  Dialogue rig(kUsb);
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   rig.pass(seconds{10});
@@ -223,7 +223,7 @@ TEST(MtConfiguration, SilentDeviceIsConfiguredAnew) {
 }
 
 TEST(MtConfiguration, RefusedOutputsLeaveADeviceThatMeasures) {
-  Rig rig(kUsb, {.refuse_with = 33});
+  Dialogue rig(kUsb, {.refuse_with = 33});
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   EXPECT_TRUE(rig.device().measuring());
@@ -233,14 +233,14 @@ TEST(MtConfiguration, RefusedOutputsLeaveADeviceThatMeasures) {
 }
 
 TEST(MtConfiguration, OtherOutputsThanAskedForAreReported) {
-  Rig rig(kUsb, {.deny_rates = true});
+  Dialogue rig(kUsb, {.deny_rates = true});
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   EXPECT_EQ(rig.configuration.outcome(), MtOutcome::differs);
 }
 
 TEST(MtConfiguration, LineIsSetToItsRateWhenTheDeviceTakesItAfterAReset) {
-  Rig rig(kFaster);
+  Dialogue rig(kFaster);
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   EXPECT_EQ(rig.device().baud(), 460800U);
@@ -249,7 +249,7 @@ TEST(MtConfiguration, LineIsSetToItsRateWhenTheDeviceTakesItAfterAReset) {
 }
 
 TEST(MtConfiguration, LineIsSetToItsRateWhenTheDeviceTakesItAtOnce) {
-  Rig rig(kFaster, {.baud_at_once = true});
+  Dialogue rig(kFaster, {.baud_at_once = true});
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   EXPECT_EQ(rig.device().baud(), 460800U);
@@ -258,7 +258,7 @@ TEST(MtConfiguration, LineIsSetToItsRateWhenTheDeviceTakesItAtOnce) {
 }
 
 TEST(MtConfiguration, DeviceThatIsAtTheNewRateAlreadyIsFoundThere) {
-  Rig rig(kFaster, {.baud = 460800});
+  Dialogue rig(kFaster, {.baud = 460800});
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   EXPECT_EQ(rig.configuration.baud(), 460800U);
@@ -266,7 +266,7 @@ TEST(MtConfiguration, DeviceThatIsAtTheNewRateAlreadyIsFoundThere) {
 }
 
 TEST(MtConfiguration, DeviceIsNotSetToARateThatTheHostDoesNotHave) {
-  Rig rig(kFaster);
+  Dialogue rig(kFaster);
   rig.fastest = 230400;
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
@@ -276,7 +276,7 @@ TEST(MtConfiguration, DeviceIsNotSetToARateThatTheHostDoesNotHave) {
 }
 
 TEST(MtConfiguration, RateThatTheLineCarriesServesWhereItsOwnCannotBeSet) {
-  Rig rig({.baud = 115200});
+  Dialogue rig({.baud = 115200});
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::measuring));
   EXPECT_EQ(rig.device().outputs(), outputs(100));
@@ -286,7 +286,7 @@ TEST(MtConfiguration, RateThatTheLineCarriesServesWhereItsOwnCannotBeSet) {
 TEST(MtConfiguration, EveryRateIsFoundByScanning) {
   for (const BaudCode& row : kBaudCodes) {
     if (row.baud == 14400 || row.baud == 28800 || row.baud == 76800) continue;  // not in termios
-    Rig rig({.baud = 115200, .scan_baud = true, .rate_hz = 1}, {.baud = row.baud});
+    Dialogue rig({.baud = 115200, .scan_baud = true, .rate_hz = 1}, {.baud = row.baud});
     rig.open();
     ASSERT_TRUE(rig.becomes(MtState::measuring)) << row.baud;
     EXPECT_EQ(rig.configuration.baud(), row.baud);
@@ -294,21 +294,21 @@ TEST(MtConfiguration, EveryRateIsFoundByScanning) {
 }
 
 TEST(MtConfiguration, OtherRatesAreNotTriedUnlessWanted) {
-  Rig rig({.baud = 115200}, {.baud = 921600});
+  Dialogue rig({.baud = 115200}, {.baud = 921600});
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::no_answer));
   EXPECT_EQ(rig.configuration.baud(), 115200U);
 }
 
 TEST(MtConfiguration, DeviceThatSendsButDoesNotListenIsStillHeard) {
-  Rig rig({.baud = 115200, .scan_baud = true}, {.baud = 230400, .deaf_to = 1'000'000});
+  Dialogue rig({.baud = 115200, .scan_baud = true}, {.baud = 230400, .deaf_to = 1'000'000});
   rig.open();
   ASSERT_TRUE(rig.becomes(MtState::no_answer));
   EXPECT_EQ(rig.configuration.baud(), 230400U);
 }
 
 TEST(MtConfiguration, ClosedLineIsLeftAlone) {
-  Rig rig(kUsb);
+  Dialogue rig(kUsb);
   rig.open();
   rig.configuration.end();
   const auto requests = rig.configuration.counters().requests.value();
@@ -319,7 +319,7 @@ TEST(MtConfiguration, ClosedLineIsLeftAlone) {
 
 TEST(MtConfiguration, AnyFrameInAnyStateIsHarmless) {
   // Every message id with every short payload, in the middle of a dialogue.
-  Rig rig(kUsb);
+  Dialogue rig(kUsb);
   rig.open();
   for (unsigned id = 0; id < 256; ++id) {
     for (std::size_t size = 0; size < 30; ++size) {
