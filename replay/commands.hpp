@@ -21,5 +21,6 @@ struct Command {
 [[nodiscard]] Command add_info(CLI::App& root);
 [[nodiscard]] Command add_watch(CLI::App& root);
 [[nodiscard]] Command add_picture(CLI::App& root);
+[[nodiscard]] Command add_evaluate(CLI::App& root);
 
 }  // namespace convexcut::replay

@@ -23,7 +23,8 @@ int program(int argc, char** argv) {
       "Start with:  convexcut info --lidar lidar.pcap");
   const std::array commands{replay::add_process(root), replay::add_record(root),
                             replay::add_replay(root),  replay::add_info(root),
-                            replay::add_watch(root),   replay::add_picture(root)};
+                            replay::add_watch(root),   replay::add_picture(root),
+                            replay::add_evaluate(root)};
   return command_line::run_program(root, argc, argv, [&commands] {
     for (const replay::Command& command : commands) {
       if (command.app->parsed()) return command.run();

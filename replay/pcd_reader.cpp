@@ -48,16 +48,20 @@ class Reader {
 
   PcdCloud read() {
     read_header();
-    const Coordinates fields{&find("x"), &find("y"), &find("z"), find_label()};
+    const Columns fields{&find("x"),           &find("y"),
+                         &find("z"),           find_integer("label"),
+                         find_integer("ring"), find_integer("time")};
     return header_.data == "binary" ? read_binary(fields) : read_ascii(fields);
   }
 
  private:
-  struct Coordinates {
+  struct Columns {
     const Field* x;
     const Field* y;
     const Field* z;
-    const Field* label;  // may be null
+    const Field* label;  // these may be null
+    const Field* ring;
+    const Field* time;
   };
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -149,19 +153,33 @@ class Reader {
     fail("expected the fields x, y and z, found no " + std::string(name));
   }
 
-  const Field* find_label() const {
+  const Field* find_integer(std::string_view name) const {
     for (const Field& field : header_.fields) {
-      if (field.name != "label") continue;
-      if (field.type != 'U' && field.type != 'I') fail("field label: expected TYPE U or I");
+      if (field.name != name) continue;
+      if (field.type != 'U' && field.type != 'I') {
+        fail("field " + field.name + ": expected TYPE U or I");
+      }
       if (field.size != 1 && field.size != 2 && field.size != 4) {
-        fail("field label: expected SIZE 1, 2 or 4");
+        fail("field " + field.name + ": expected SIZE 1, 2 or 4");
       }
       return &field;
     }
     return nullptr;
   }
 
-  PcdCloud read_binary(const Coordinates& fields) {
+  // `value_of` gives the value of an integer field of the point at hand.
+  template <class ValueOf>
+  static void add_integers(const Columns& fields, PcdCloud& cloud, ValueOf&& value_of) {
+    if (fields.label != nullptr) {
+      cloud.label.push_back(value_of(*fields.label) == 1 ? Label::structure : Label::other);
+    }
+    if (fields.ring != nullptr) {
+      cloud.ring.push_back(static_cast<std::uint16_t>(value_of(*fields.ring)));
+    }
+    if (fields.time != nullptr) cloud.time_ns.push_back(value_of(*fields.time));
+  }
+
+  PcdCloud read_binary(const Columns& fields) {
     const std::size_t held = content_.size() - std::min(position_, content_.size());
     if (held / header_.point_size < header_.points) {
       fail("expected " + std::to_string(header_.points) + " points of " +
@@ -174,7 +192,7 @@ class Reader {
       cloud.x.push_back(real(point, *fields.x));
       cloud.y.push_back(real(point, *fields.y));
       cloud.z.push_back(real(point, *fields.z));
-      if (fields.label != nullptr) cloud.label.push_back(label(point, *fields.label));
+      add_integers(fields, cloud, [point](const Field& field) { return integer(point, field); });
     }
     return cloud;
   }
@@ -190,13 +208,13 @@ class Reader {
     return value;
   }
 
-  static Label label(const char* point, const Field& field) noexcept {
+  static std::uint32_t integer(const char* point, const Field& field) noexcept {
     std::uint32_t value = 0;  // the lower bytes come first
     std::memcpy(&value, point + field.offset, field.size);
-    return value == 1 ? Label::structure : Label::other;
+    return value;
   }
 
-  PcdCloud read_ascii(const Coordinates& fields) {
+  PcdCloud read_ascii(const Columns& fields) {
     PcdCloud cloud;
     std::vector<std::string_view> values;
     for (std::size_t i = 0; i < header_.points; ++i) {
@@ -205,12 +223,12 @@ class Reader {
         fail("expected " + std::to_string(header_.points) + " points, found " + std::to_string(i));
       }
       split(*line, values);
-      cloud.x.push_back(number(values, *fields.x));
-      cloud.y.push_back(number(values, *fields.y));
-      cloud.z.push_back(number(values, *fields.z));
-      if (fields.label == nullptr) continue;
-      const bool structure = number(values, *fields.label) == 1.0F;
-      cloud.label.push_back(structure ? Label::structure : Label::other);
+      cloud.x.push_back(number<float>(values, *fields.x));
+      cloud.y.push_back(number<float>(values, *fields.y));
+      cloud.z.push_back(number<float>(values, *fields.z));
+      add_integers(fields, cloud, [&](const Field& field) {
+        return static_cast<std::uint32_t>(number<double>(values, field));
+      });
     }
     return cloud;
   }
@@ -225,10 +243,11 @@ class Reader {
     }
   }
 
-  float number(const std::vector<std::string_view>& values, const Field& field) const {
+  template <class Real>
+  Real number(const std::vector<std::string_view>& values, const Field& field) const {
     if (field.offset < values.size()) {
       const std::string_view text = values[field.offset];
-      float value = 0;
+      Real value = 0;
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
       if (error == std::errc{} && end == text.data() + text.size()) return value;
     }

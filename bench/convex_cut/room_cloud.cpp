@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace convexcut::bench {
 namespace {
@@ -29,26 +30,34 @@ constexpr std::array<Box, 7> kFurniture{{
     {{-3.4, 0.2, -1.1}, {-3.1, 0.5, 1.7}},    // pillar
 }};
 
-// Parameters at which a ray from the origin enters and leaves a box.
-[[nodiscard]] std::array<double, 2> cross(const Vector& direction, const Box& box) {
-  double enter = -std::numeric_limits<double>::infinity();
-  double leave = std::numeric_limits<double>::infinity();
+// Where a ray from the origin enters and leaves a box: the parameter, and the side, two to an axis.
+struct Crossing {
+  double at;
+  std::size_t side;
+};
+
+[[nodiscard]] std::array<Crossing, 2> cross(const Vector& direction, const Box& box) {
+  Crossing enter{-std::numeric_limits<double>::infinity(), 0};
+  Crossing leave{std::numeric_limits<double>::infinity(), 0};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double a = box.low[axis] / direction[axis];
-    const double b = box.high[axis] / direction[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
+    Crossing low{box.low[axis] / direction[axis], 2 * axis};
+    Crossing high{box.high[axis] / direction[axis], 2 * axis + 1};
+    if (low.at > high.at) std::swap(low, high);
+    if (low.at > enter.at) enter = low;
+    if (high.at < leave.at) leave = high;
   }
   return {enter, leave};
 }
 
-[[nodiscard]] double range_along(const Vector& direction) {
-  double range = cross(direction, kRoom)[1];
-  for (const Box& box : kFurniture) {
-    const auto [enter, leave] = cross(direction, box);
-    if (enter > 0.0 && enter < leave) range = std::min(range, enter);
+// Sides are counted over all boxes.
+[[nodiscard]] Crossing range_along(const Vector& direction) {
+  Crossing nearest = cross(direction, kRoom)[1];
+  for (std::size_t i = 0; i < kFurniture.size(); ++i) {
+    const auto [enter, leave] = cross(direction, kFurniture[i]);
+    if (enter.at <= 0.0 || enter.at >= leave.at || enter.at >= nearest.at) continue;
+    nearest = {enter.at, 6 * (i + 1) + enter.side};
   }
-  return range;
+  return nearest;
 }
 
 }  // namespace
@@ -73,10 +82,12 @@ RoomCloud room_cloud(std::size_t firings, double tilt_deg) {
       // Box and Muller's normal deviate: the standard library's is not the same everywhere.
       const double noise = 0.02 * std::sqrt(-2.0 * std::log(1.0 - uniform())) *
                            std::cos(2.0 * std::numbers::pi * uniform());
-      const double range = range_along(level) + noise;
+      const Crossing hit = range_along(level);
+      const double range = hit.at + noise;
       cloud.x.push_back(static_cast<float>(range * level[0]));
       cloud.y.push_back(static_cast<float>(range * level[1]));
       cloud.z.push_back(static_cast<float>(range * level[2]));
+      cloud.side.push_back(static_cast<std::uint16_t>(hit.side));
     }
   }
   return cloud;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/cloud.hpp"
@@ -10,6 +11,7 @@ namespace convexcut::bench {
 
 struct RoomCloud {
   std::vector<float> x, y, z;
+  std::vector<std::uint16_t> side;  // of which box the point is: 6 to a box, the room's first
   [[nodiscard]] CloudView view() const { return {x, y, z}; }
 };
 

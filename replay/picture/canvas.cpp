@@ -215,7 +215,7 @@ void Canvas::character(Pixel base, double dot, Colour colour, char c) noexcept {
         });
 }
 
-void Canvas::write_png(const std::filesystem::path& file) const {
+std::string Canvas::png() const {
   std::vector<std::uint8_t> rgb;
   rgb.reserve(pixels_.size() * 3);
   for (const Colour& pixel : pixels_) {
@@ -227,12 +227,17 @@ void Canvas::write_png(const std::filesystem::path& file) const {
   image.height = static_cast<png_uint_32>(height_);
   image.format = PNG_FORMAT_RGB;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::vector<char> png(size);
+  std::string png(size, '\0');
   if (png_image_write_to_memory(&image, png.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
-    throw std::runtime_error("cannot encode " + file.string() + ": " + image.message);
+    throw std::runtime_error(std::string("cannot encode a PNG: ") + image.message);
   }
+  png.resize(size);
+  return png;
+}
+
+void Canvas::write_png(const std::filesystem::path& file) const {
   AtomicFile out(file);
-  out.write(std::string_view(png.data(), size));
+  out.write(png());
   out.commit();
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -74,7 +75,10 @@ class Canvas {
             Align align = Align::left) noexcept;
   [[nodiscard]] static double text_width(double size, std::string_view words) noexcept;
 
-  // 8 bits a channel. The file gets its name only when it is whole. Throws std::runtime_error of
+  // The bytes of a PNG file, 8 bits a channel. Throws std::runtime_error of one line.
+  [[nodiscard]] std::string png() const;
+
+  // The same in a file. The file gets its name only when it is whole. Throws std::runtime_error of
   // one line.
   void write_png(const std::filesystem::path& file) const;
 

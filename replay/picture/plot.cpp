@@ -37,6 +37,21 @@ void for_each_step(const Extent& extent, double step, Use&& use) {
 
 }  // namespace
 
+Extent extent_of(std::vector<double> values, double outliers) {
+  constexpr double kMargin = 0.04;
+  constexpr double kLeast = 1.0;  // m, to both sides of the middle
+  Extent extent;
+  if (!values.empty()) {
+    const auto skipped = static_cast<std::ptrdiff_t>(outliers * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + skipped, values.end());
+    extent.low = std::min(0.0, values[static_cast<std::size_t>(skipped)]);
+    std::nth_element(values.begin(), values.end() - 1 - skipped, values.end());
+    extent.high = std::max(0.0, *(values.end() - 1 - skipped));
+  }
+  const double half = std::max(kLeast, extent.length() * (0.5 + kMargin));
+  return {extent.middle() - half, extent.middle() + half};
+}
+
 Plot::Plot(const PixelRect& area, Extent horizontal, Extent vertical, Direction across) noexcept
     : area_(area),
       middle_horizontal_(horizontal.middle()),

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "replay/picture/canvas.hpp"
 
@@ -16,6 +17,9 @@ struct Extent {  // metres
   [[nodiscard]] double middle() const noexcept { return (low + high) / 2; }
   [[nodiscard]] double length() const noexcept { return high - low; }
 };
+
+// Where the values and the origin are, with a margin; but for a share of them at each end.
+[[nodiscard]] Extent extent_of(std::vector<double> values, double outliers);
 
 class Plot {
  public:
