@@ -115,8 +115,8 @@ class HalfSpaceRansac {
   qhT qh{};
   qh_zero(&qh, stderr);
   std::string options = "qhull Pp";
-  const int failed = qh_new_qhull(&qh, 3, static_cast<int>(cloud.size()), coordinates.data(),
-                                  False, options.data(), nullptr, stderr);
+  const int failed = qh_new_qhull(&qh, 3, static_cast<int>(cloud.size()), coordinates.data(), False,
+                                  options.data(), nullptr, stderr);
   std::vector<Plane> facets;
   if (failed == 0) {
     for (const facetT* f = qh.facet_list; f != nullptr && f->next != nullptr; f = f->next) {

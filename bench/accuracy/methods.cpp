@@ -89,18 +89,18 @@ std::vector<NamedMethod> ablations() {
   one.window = 1;
   RobustParameters ten;
   ten.window = 10;
-  return {robust("robust", "all parts", {}),
-          robust("window 1", "one revolution alone", one),
-          robust("window 10", "ten revolutions", ten),
-          without("no free space", "every plane is kept", &RobustParameters::free_space),
-          without("no furniture rule", "fronts before walls are kept",
-                  &RobustParameters::furniture),
-          without("no fixture rule", "what is flat on a wall is kept", &RobustParameters::fixtures),
-          without("no curved part", "planes only", &RobustParameters::curved),
-          without("no mirror test", "mirror images are kept", &RobustParameters::mirrors),
-          without("no upright correction", "gravity is believed", &RobustParameters::upright),
-          without("no alignment", "each revolution's pose is believed", &RobustParameters::align),
-          without("no re-centring", "planes of the whole window", &RobustParameters::recentre)};
+  return {
+      robust("robust", "all parts", {}),
+      robust("window 1", "one revolution alone", one),
+      robust("window 10", "ten revolutions", ten),
+      without("no free space", "every plane is kept", &RobustParameters::free_space),
+      without("no furniture rule", "fronts before walls are kept", &RobustParameters::furniture),
+      without("no fixture rule", "what is flat on a wall is kept", &RobustParameters::fixtures),
+      without("no curved part", "planes only", &RobustParameters::curved),
+      without("no mirror test", "mirror images are kept", &RobustParameters::mirrors),
+      without("no upright correction", "gravity is believed", &RobustParameters::upright),
+      without("no alignment", "each revolution's pose is believed", &RobustParameters::align),
+      without("no re-centring", "planes of the whole window", &RobustParameters::recentre)};
 }
 
 NamedMethod robust_with_positions() {

@@ -27,17 +27,21 @@ class MergedCloud {
       z_.push_back(scan.scan.z[i] + static_cast<float>(position.z()));
     }
     truth_.insert(truth_.end(), scan.label.begin(), scan.label.end());
+    surface_.insert(surface_.end(), scan.surface.begin(), scan.surface.end());
   }
   void clear() {
     for (std::vector<float>* column : {&x_, &y_, &z_}) column->clear();
     truth_.clear();
+    surface_.clear();
   }
   [[nodiscard]] CloudView view() const { return {x_, y_, z_}; }
   [[nodiscard]] const std::vector<SurfaceLabel>& truth() const { return truth_; }
+  [[nodiscard]] const std::vector<std::uint16_t>& surface() const { return surface_; }
 
  private:
   std::vector<float> x_, y_, z_;
   std::vector<SurfaceLabel> truth_;
+  std::vector<std::uint16_t> surface_;
 };
 
 struct Contestant {
@@ -50,14 +54,15 @@ struct Contestant {
     labels.assign(scan.scan.size(), Label::other);
     const auto begin = std::chrono::steady_clock::now();
     method->label(scan.scan.cloud(), position, labels);
-    const std::chrono::duration<double, std::milli> took =
-        std::chrono::steady_clock::now() - begin;
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     outcome.milliseconds += took.count();
     ++outcome.scans;
     merged.insert(merged.end(), labels.begin(), labels.end());
   }
 
-  void judge(const std::vector<SurfaceLabel>& truth, bool settled) {
+  void judge(const MergedCloud& cloud, bool settled) {
+    const std::vector<SurfaceLabel>& truth = cloud.truth();
+    evaluation::add_surfaces(merged, truth, cloud.surface(), outcome.by_surface);
     const evaluation::PointCounts counts = evaluation::count_points(merged, truth);
     outcome.points.add(score_of(counts));
     if (settled) outcome.settled.add(score_of(counts));
@@ -97,7 +102,7 @@ std::vector<Outcome> outcomes_of(const Run& run, const std::vector<NamedMethod>&
     if ((index + 1) % run.merge != 0) continue;
     const bool patches = run.judge_patches_every > 0 && clouds % run.judge_patches_every == 0;
     if (clouds % run.judge_every == 0) {
-      for (Contestant& c : contestants) c.judge(cloud.truth(), index >= kSettled);
+      for (Contestant& c : contestants) c.judge(cloud, index >= kSettled);
     }
     if (patches) {
       patch_judge.set_input(cloud.view(), cloud.truth());

@@ -32,6 +32,7 @@ struct Outcome {
   evaluation::ScoreSummary points;
   evaluation::ScoreSummary settled;  // of scans from the second second on
   evaluation::PointCounts pooled;
+  std::vector<evaluation::SurfaceCounts> by_surface;
   evaluation::ScoreSummary patches;
   evaluation::PatchCounts pooled_patches;
   evaluation::Summary dynamic_ratio;

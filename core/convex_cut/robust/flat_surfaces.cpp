@@ -11,6 +11,9 @@ namespace {
 constexpr std::size_t kMostCellsOfAPart = 1U << 18U;
 constexpr std::int32_t kReach = 2;  // cells: gaps within a part, and the ring around it
 constexpr std::size_t kLeastCells = 6;
+constexpr std::size_t kMostParts = 4'096;
+constexpr float kTableM = 0.2F;           // above the floor
+constexpr float kMostlyOver = 0.7F;       // of its extent
 constexpr std::uint16_t kPassed = 2;      // one ray alone may be a ghost's
 constexpr float kMostOpenRing = 0.25F;    // share of the ring that may be passed
 constexpr float kMostOpenInside = 0.40F;  // and of the part itself
@@ -32,15 +35,14 @@ void for_each_within_reach(const PlaneGrid& grid, std::int32_t column, std::int3
 FlatSurfaces::FlatSurfaces() {
   part_.reserve(kMostCellsOfAPart);
   ring_.reserve(kMostCellsOfAPart);
+  parts_.reserve(kMostParts);
 }
 
 void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
                         bool free_space) noexcept {
-  model.floor_z = -std::numeric_limits<float>::infinity();
-  model.ceiling_z = std::numeric_limits<float>::infinity();
+  parts_.clear();
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
-    Plane& plane = model.planes[k];
-    if (plane.vertical) continue;
+    if (model.planes[k].vertical) continue;
     const PlaneGrid& grid = grids.grid(k);
     std::int16_t id = 0;
     for (std::int32_t row = 0; row < grid.rows; ++row) {
@@ -49,13 +51,67 @@ void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
         if (cell.seen == 0 || cell.part >= 0) continue;
         collect_part(grids, grid, {column, row}, id);
         if (part_.size() >= kLeastCells && (!free_space || bounds_free_space(grids, grid, id))) {
-          plane.accepted = true;
-          for (const Place& p : part_) grids.cell(grid, p.column, p.row).structure = true;
+          add_part(model.planes[k], k, grid, id);
         }
         ++id;
       }
     }
-    if (!plane.accepted || std::abs(plane.normal.z()) < kLevel || plane.surfels < kLargeSurfels) {
+  }
+  if (free_space) reject_table_tops(model, origin);
+  for (const Part& part : parts_) accept(model, grids, part);
+  find_levels(model, origin);
+}
+
+void FlatSurfaces::add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid,
+                            std::int16_t id) noexcept {
+  if (parts_.size() == kMostParts) return;
+  Part part{k, id, part_.size(), Vec3f::Constant(1e9F), Vec3f::Constant(-1e9F)};
+  for (const Place& at : part_) {
+    const Vec3f centre = grid.centre(plane, at.column, at.row);
+    part.low = part.low.cwiseMin(centre);
+    part.high = part.high.cwiseMax(centre);
+  }
+  parts_.push_back(part);
+}
+
+bool FlatSurfaces::is_above_floor(const Part& part, const Part& floor) const noexcept {
+  if (part.low.z() < floor.high.z() + kTableM || 4 * part.cells > floor.cells) return false;
+  const Eigen::Array2f size = (part.high - part.low).head<2>().array() + kCellM;
+  const Eigen::Array2f shared =
+      (part.high.cwiseMin(floor.high) - part.low.cwiseMax(floor.low)).head<2>().array() + kCellM;
+  return (shared > 0.0F).all() && shared.prod() > kMostlyOver * size.prod();
+}
+
+void FlatSurfaces::reject_table_tops(const Model& model, const Vec3f& origin) noexcept {
+  const Part* floor = nullptr;
+  for (const Part& part : parts_) {
+    if (model.planes[part.plane].normal.z() < kLevel || part.high.z() > origin.z()) continue;
+    if (floor == nullptr || part.cells > floor->cells) floor = &part;
+  }
+  if (floor == nullptr) return;
+  const Part largest = *floor;
+  std::erase_if(parts_, [&](const Part& part) {
+    return part.high.z() < origin.z() && is_above_floor(part, largest);
+  });
+}
+
+void FlatSurfaces::accept(Model& model, PlaneGrids& grids, const Part& part) const noexcept {
+  model.planes[part.plane].accepted = true;
+  const PlaneGrid& grid = grids.grid(part.plane);
+  for (std::int32_t row = 0; row < grid.rows; ++row) {
+    for (std::int32_t column = 0; column < grid.columns; ++column) {
+      Cell& cell = grids.cell(grid, column, row);
+      if (cell.part == part.id) cell.structure = true;
+    }
+  }
+}
+
+void FlatSurfaces::find_levels(Model& model, const Vec3f& origin) const noexcept {
+  model.floor_z = -std::numeric_limits<float>::infinity();
+  model.ceiling_z = std::numeric_limits<float>::infinity();
+  for (const Plane& plane : model.planes) {
+    if (plane.vertical || !plane.accepted || std::abs(plane.normal.z()) < kLevel ||
+        plane.surfels < kLargeSurfels) {
       continue;
     }
     const float z = -plane.offset / plane.normal.z();

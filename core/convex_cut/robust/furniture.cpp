@@ -19,20 +19,16 @@ constexpr float kNarrowM = 0.8F;
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
 constexpr float kLeastHeightM = 1.0F;  // of a narrow face
-constexpr float kOpenShare = 0.25F;
 constexpr float kTouchM = 0.4F;
 constexpr float kSameTopM = 0.6F;
-constexpr float kRounder = 1.5F;  // spread², relative to the noise²
+constexpr float kRounder = 1.7F;  // spread², relative to the noise²
 constexpr int kPasses = 2;        // fronts before fronts
 
 struct PlaneExtent {
   float begin_m = 1e9F, end_m = -1e9F;
-  float closed = 0.0F, open = 0.0F;
   void add(const WallSegment& s) noexcept {
     begin_m = std::min(begin_m, s.begin_m);
     end_m = std::max(end_m, s.end_m);
-    closed += static_cast<float>(s.closed);
-    open += static_cast<float>(s.open);
   }
 };
 
@@ -90,9 +86,8 @@ struct PlaneExtent {
   const bool beyond =
       of_wall.begin_m < of_front.begin_m - kGoesOnM || of_wall.end_m > of_front.end_m + kGoesOnM;
   const bool above = top_near(model, wall, front) > front.top_m + kGoesOnM;
-  const bool open = of_front.open > kOpenShare * of_front.closed;
   const bool wide = front.end_m - front.begin_m > kNarrowM;
-  return (beyond || above || open) && (wide || above || fixture);
+  return (beyond || above) && (wide || fixture);
 }
 
 // Whether a face meets a rejected one of about its height at an edge.

@@ -75,10 +75,16 @@ void measure_spread(robust::Model& model, std::span<const Voxel> voxels) noexcep
       if (candidate == nullptr) break;
     }
   }
-  model.noise2 = largest[0] != nullptr ? largest[0]->spread2 : robust::Model{}.noise2;
+  // The noise is along the beam: surfaces that are met at a grazing angle show less of it, and
+  // those with things on them more. So neither the least nor the greatest.
+  std::array<float, kLargestPlanes> spreads{};
+  spreads.fill(std::numeric_limits<float>::max());
+  std::size_t count = 0;
   for (const Plane* plane : largest) {
-    if (plane != nullptr) model.noise2 = std::min(model.noise2, plane->spread2);
+    if (plane != nullptr) spreads.at(count++) = plane->spread2;
   }
+  std::sort(spreads.begin(), spreads.end());
+  model.noise2 = count > 0 ? spreads.at(count / 2) : robust::Model{}.noise2;
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ void Walls::take_columns(const Model& model, const PlaneGrids& grids, std::size_
   columns_.clear();
   for (std::int32_t c = 0; c < grid.columns; ++c) {
     Column column;
+    std::int32_t through = 0;  // cells that are seen and passed: glass
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       const Cell& cell = grids.cell(grid, c, row);
       if (cell.seen > 0) {
@@ -54,8 +55,11 @@ void Walls::take_columns(const Model& model, const PlaneGrids& grids, std::size_
       }
       if (cell.passed < kPassed) continue;
       const float z = grid.centre(model.planes[plane], c, row).z();
-      if (z > model.floor_z + kMarginM && z < model.ceiling_z - kMarginM) ++column.open;
+      if (z > model.floor_z + kMarginM && z < model.ceiling_z - kMarginM) {
+        ++(cell.seen > 0 ? through : column.open);
+      }
     }
+    if (through >= column.open) column.open = 0;
     columns_.push_back(column);
   }
 }

@@ -12,7 +12,8 @@ namespace convexcut::robust {
 
 // Walls and the faces of pillars among the vertical planes. A column of a plane is open when
 // something behind it is seen in the same column, above what stands there or below what hangs
-// there, closed otherwise. Walls are mostly closed; furniture is open wherever it does not reach
+// there, closed otherwise; where it is passed in the same cells that it is seen in, it is glass and
+// closed. Walls are mostly closed; furniture is open wherever it does not reach
 // the ceiling. Furniture whose top is out of view is told by the wall close behind it, which goes
 // on beside or above it.
 class Walls {
@@ -25,7 +26,7 @@ class Walls {
  private:
   struct Column {
     std::int32_t seen = 0;  // cells
-    std::int32_t open = 0;  // cells that rays pass between floor and ceiling
+    std::int32_t open = 0;  // cells that rays pass between floor and ceiling, and is not glass
     std::int32_t bottom = 0, top = -1;
   };
   void take_columns(const Model& model, const PlaneGrids& grids, std::size_t plane) noexcept;
