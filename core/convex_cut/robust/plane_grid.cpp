@@ -107,7 +107,12 @@ void PlaneGrids::mark_seen(const Model& model) noexcept {
     const std::int32_t column = g.column_of(surfel.mean);
     const std::int32_t row = g.row_of(surfel.mean);
     if (!g.holds(column, row)) continue;
-    ++cell(g, column, row).seen;
+    Cell& seen = cell(g, column, row);
+    ++seen.seen;
+    seen.points += surfel.points;
+    seen.height_sum_m +=
+        static_cast<float>(surfel.points) *
+        model.planes[static_cast<std::size_t>(surfel.plane)].height_of(surfel.mean);
     Extent& extent = extents_[g.first_extent + static_cast<std::size_t>(column)];
     const float along = g.along.dot(surfel.mean);
     extent.low_m = std::min(extent.low_m, along);
@@ -155,6 +160,23 @@ void PlaneGrids::mark_passed(const Model& model) noexcept {
       if (passed < std::numeric_limits<std::uint16_t>::max()) ++passed;
     }
   }
+}
+
+float PlaneGrids::layer_near(std::size_t plane, const Vec3f& p) const noexcept {
+  const PlaneGrid& g = grids_[plane];
+  const std::int32_t column = g.column_of(p);
+  const std::int32_t row = g.row_of(p);
+  if (g.holds(column, row) && cell(g, column, row).layer_m != 0.0F) {
+    return cell(g, column, row).layer_m;
+  }
+  float layer = 0.0F;
+  for (std::int32_t r = std::max(row - 1, 0); r <= std::min(row + 1, g.rows - 1); ++r) {
+    for (std::int32_t c = std::max(column - 1, 0); c <= std::min(column + 1, g.columns - 1); ++c) {
+      const float here = cell(g, c, r).layer_m;
+      if (std::abs(here) > std::abs(layer)) layer = here;
+    }
+  }
+  return layer;
 }
 
 bool PlaneGrids::is_structure(std::size_t plane, const Vec3f& p,

@@ -18,9 +18,12 @@ namespace convexcut::robust {
 inline constexpr float kCellM = 0.25F;
 
 struct Cell {
-  std::uint16_t seen = 0;    // surfels of the plane
-  std::uint16_t passed = 0;  // rays that end well behind the plane
-  std::int16_t part = -1;    // of a flat plane: connected cells
+  std::uint16_t seen = 0;     // surfels of the plane
+  std::uint16_t passed = 0;   // rays that end well behind the plane
+  std::int16_t part = -1;     // of a flat plane: connected cells
+  std::int32_t points = 0;    // of these surfels
+  float height_sum_m = 0.0F;  // of the points, over the plane
+  float layer_m = 0.0F;       // how far the fixture that covers the cell is off the wall; 0: none
   bool structure = false;
   bool visited = false;
 };
@@ -83,6 +86,8 @@ class PlaneGrids {
   // Whether the cell at p, or one within `around` of it, is structure.
   [[nodiscard]] bool is_structure(std::size_t plane, const Vec3f& p,
                                   std::int32_t around) const noexcept;
+  // The layer of the cell at p, or the greatest of those beside it; 0: none.
+  [[nodiscard]] float layer_near(std::size_t plane, const Vec3f& p) const noexcept;
 
  private:
   [[nodiscard]] static std::size_t index(const PlaneGrid& grid, std::int32_t column,

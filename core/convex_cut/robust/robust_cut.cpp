@@ -28,10 +28,7 @@ constexpr float kKnownMotionM = 0.02F;
 constexpr float kStillM = 0.02F;  // a step below this is none
 constexpr float kLeastOfLastShare = 0.5F;
 constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
-constexpr float kFixtureM = 0.03F;         // before its wall
-constexpr std::int32_t kFixturePoints = 12;
-constexpr float kThin = 2.2F;           // spread² of a fixture's voxel, relative to the noise²
-constexpr float kHalfDiagonal = 0.87F;  // of a voxel, relative to its edge
+constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
 
 [[nodiscard]] const RobustParameters& checked(const RobustParameters& parameters) {
   if (!is_valid(parameters)) throw std::invalid_argument("robust parameters out of range");
@@ -219,6 +216,7 @@ void RobustCut::find_structure() noexcept {
   grids_.build(model_);
   flat_surfaces_.find(model_, grids_, window_.origin(), parameters_.free_space);
   walls_.find(model_, grids_, parameters_);
+  if (parameters_.fixtures) fixtures_.find(model_, grids_);
 }
 
 void RobustCut::recentre() noexcept {
@@ -247,23 +245,20 @@ void RobustCut::take_near() noexcept {
     for (std::size_t k = 0; k < centred_planes_.size() && near.count < Near::kMost; ++k) {
       const Plane& plane = centred_planes_[k];
       if (!plane.accepted || std::abs(plane.height_of(centre)) > reach_m) continue;
-      if (known &&
-          is_fixture(model_.surfels[merged], window_.map().voxels()[merged], model_.planes[k])) {
-        continue;
-      }
+      if (known && is_fixture(model_.surfels[merged], k)) continue;
       near.planes.at(near.count++) = static_cast<std::int8_t>(k);
     }
     near_.push_back(near);
   }
 }
 
-// A thin layer before a wall: it has the sensor's noise alone, but not about the wall.
-bool RobustCut::is_fixture(const Surfel& surfel, const Voxel& merged,
-                           const Plane& plane) const noexcept {
-  if (!parameters_.fixtures || !plane.vertical || surfel.points < kFixturePoints) return false;
-  const float height = plane.height_of(surfel.mean);
-  return height > kFixtureM && height < parameters_.band_m &&
-         spread2_across(merged, plane) < kThin * model_.noise2;
+// On a layer's cell or beside one, and nearer to the layer than to the wall.
+bool RobustCut::is_fixture(const Surfel& surfel, std::size_t plane) const noexcept {
+  const Plane& wall = model_.planes[plane];
+  if (!parameters_.fixtures || !wall.vertical) return false;
+  const float off_m = wall.height_of(surfel.mean) - wall.face_m;
+  const float layer_m = grids_.layer_near(plane, surfel.mean);
+  return layer_m != 0.0F && off_m * layer_m > 0.0F && std::abs(off_m) > std::abs(layer_m) / 2;
 }
 
 bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept {

@@ -16,6 +16,7 @@
 #include "core/cloud.hpp"
 #include "core/convex_cut/parameters.hpp"
 #include "core/convex_cut/robust/curved.hpp"
+#include "core/convex_cut/robust/fixtures.hpp"
 #include "core/convex_cut/robust/flat_surfaces.hpp"
 #include "core/convex_cut/robust/mirrors.hpp"
 #include "core/convex_cut/robust/model.hpp"
@@ -74,8 +75,7 @@ class RobustCut {
   void find_structure() noexcept;
   void recentre() noexcept;
   void take_near() noexcept;
-  [[nodiscard]] bool is_fixture(const robust::Surfel& surfel, const robust::Voxel& merged,
-                                const robust::Plane& plane) const noexcept;
+  [[nodiscard]] bool is_fixture(const robust::Surfel& surfel, std::size_t plane) const noexcept;
   [[nodiscard]] bool is_structure(const Vec3f& p, std::int32_t voxel) const noexcept;
 
   RobustParameters parameters_;
@@ -88,6 +88,7 @@ class RobustCut {
   robust::PlaneGrids grids_;
   robust::FlatSurfaces flat_surfaces_;
   robust::Walls walls_;
+  robust::Fixtures fixtures_;
   robust::Mirrors mirrors_;
   robust::Curved curved_;
   std::span<const std::uint8_t> is_curved_;    // by surfel

@@ -18,7 +18,7 @@ void Window::clear() noexcept {
 }
 
 void Window::add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t keep) noexcept {
-  keep = std::clamp<std::uint32_t>(keep, 1, static_cast<std::uint32_t>(slots_.size()));
+  keep = std::clamp<std::uint32_t>(keep, 1U, static_cast<std::uint32_t>(slots_.size()));
   while (newest_ - oldest_ >= keep) forget_oldest();
   map_.remove_empty();
   Slot& slot = slots_[newest_ % slots_.size()];
