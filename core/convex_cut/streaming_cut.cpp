@@ -31,7 +31,7 @@ StreamingCut::StreamingCut(const ConvexCutParameters& parameters, std::size_t ma
           1.0 / (checked(parameters, max_points).half_width_m * parameters.half_width_m))),
       max_points_(max_points),
       planes_(parameters.planes),
-      index_(parameters.half_width_m, max_points),
+      index_(parameters.half_width_m, max_points, 1),
       worker_(parameters, max_points),
       groups_(planes_.count()),
       keys_(max_points + kKernelPadding),
@@ -102,7 +102,8 @@ void StreamingCut::finish_group(const CloudView& cloud, std::uint32_t number) no
     y_[i] = cloud.y[point];
     z_[i] = cloud.z[point];
   }
-  const CloudView points{{x_.data(), group.count}, {y_.data(), group.count}, {z_.data(), group.count}};
+  const CloudView points{
+      {x_.data(), group.count}, {y_.data(), group.count}, {z_.data(), group.count}};
   index_.build(points);
   worker_.begin(index_, check_cloud(points, group.count).extent_m);
   const std::uint32_t end = planes_.end(number);
@@ -111,11 +112,11 @@ void StreamingCut::finish_group(const CloudView& cloud, std::uint32_t number) no
     ++done_.slices;
     done_.again += group.done != 0 ? 1U : 0U;
   }
-  const std::span<const std::uint32_t> source = index_.source();
   const std::span<const std::uint8_t> marks = worker_.marks();
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    group.marks[source[i]] = marks[i];
-    std::uint8_t& count = counts_[group.points[source[i]]];
+  for (std::size_t i = 0; i < index_.size(); ++i) {
+    const std::uint32_t source = index_.source(i);
+    group.marks[source] = marks[i];
+    std::uint8_t& count = counts_[group.points[source]];
     count = static_cast<std::uint8_t>(count + marks[i]);
   }
   group.done = group.count;
@@ -146,10 +147,9 @@ void StreamingCut::finish_all(const CloudView& cloud, std::span<Label> labels) n
     worker_.process(planes_.plane(plane), planes_.windows(plane));
     ++done_.slices;
   }
-  const std::span<const std::uint32_t> source = index_.source();
   const std::span<const std::uint8_t> marks = worker_.marks();
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    labels[source[i]] = static_cast<Label>(marks[i]);
+  for (std::size_t i = 0; i < index_.size(); ++i) {
+    labels[index_.source(i)] = static_cast<Label>(marks[i]);
   }
 }
 
