@@ -55,7 +55,8 @@ struct PointColumns {
   float* z;
   std::uint32_t* source;
 };
-// Copies records [begin, end) to the same places of the columns. Whole vectors are read and written.
+// Copies records [begin, end) to the same places of the columns. Whole vectors are read and
+// written.
 void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
                     const PointColumns& columns) noexcept;
 

@@ -132,8 +132,8 @@ Extremes extremes(const SliceColumns members, std::size_t count) {
     const Float z = hn::LoadU(df, members.z + i);
     const Word tag = hn::Set(dw, number);
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
-      const Float value =
-          hn::MulAdd(u, hn::Set(df, kDirections[axis].u), hn::Mul(z, hn::Set(df, kDirections[axis].z)));
+      const Float value = hn::MulAdd(u, hn::Set(df, kDirections[axis].u),
+                                     hn::Mul(z, hn::Set(df, kDirections[axis].z)));
       const Float numbered = tagged(value, tag, keep);
       most[axis] = hn::Max(most[axis], numbered);
       least[axis] = hn::Min(least[axis], numbered);
