@@ -131,7 +131,10 @@ for step in "${steps[@]}"; do
         done
       fi
       ;;
-    bench) check bench scripts/check-ratios.sh && sed -n 's/^figure: /        /p' "$logs/bench.log" ;;
+    bench)
+      check instructions scripts/check-instructions.sh && sed -n 's/^figure: /        /p' "$logs/instructions.log"
+      check bench scripts/check-ratios.sh && sed -n 's/^figure: /        /p' "$logs/bench.log"
+      ;;
     soak) check build-for-soak build_preset release && check soak soak 20 && sed -n 's/^packets_sent/        &/p' "$logs/soak.log" ;;
     vm) check build-for-vm build_preset release && guest_checks ;;
     tidy) check tidy scripts/check-tidy.sh ;;

@@ -35,7 +35,7 @@ inline constexpr std::array<std::string_view, 3> kNames<EncoderPreset>{"none", "
 template <>
 inline constexpr std::array<std::string_view, 2> kNames<ByteOrder>{"intel", "motorola"};
 template <>
-inline constexpr std::array<std::string_view, 1> kNames<Method>{"paper"};
+inline constexpr std::array<std::string_view, 2> kNames<Method>{"paper", "robust"};
 template <>
 inline constexpr std::array<std::string_view, 6> kNames<SimdPath>{"auto", "avx512", "avx2",
                                                                   "sse4", "neon",   "baseline"};
@@ -58,7 +58,7 @@ static_assert(kNames<EncoderAxis>[static_cast<std::size_t>(EncoderAxis::tilt)] =
 static_assert(kNames<EncoderPreset>[static_cast<std::size_t>(EncoderPreset::cia402_position_sdo)] ==
               "cia402_position_sdo");
 static_assert(kNames<ByteOrder>[static_cast<std::size_t>(ByteOrder::motorola)] == "motorola");
-static_assert(kNames<Method>[static_cast<std::size_t>(Method::paper)] == "paper");
+static_assert(kNames<Method>[static_cast<std::size_t>(Method::robust)] == "robust");
 static_assert(kNames<LogLevel>[static_cast<std::size_t>(LogLevel::debug)] == "debug");
 static_assert(kNames<Realtime>[static_cast<std::size_t>(Realtime::off)] == "off");
 static_assert(kNames<Reliability>[static_cast<std::size_t>(Reliability::best_effort)] ==

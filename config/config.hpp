@@ -21,7 +21,7 @@ enum class EncoderUse : std::uint8_t { off, yaw, orientation };
 enum class EncoderAxis : std::uint8_t { rotation, tilt };
 enum class EncoderPreset : std::uint8_t { none, cia402_position, cia402_position_sdo };
 enum class ByteOrder : std::uint8_t { intel, motorola };
-enum class Method : std::uint8_t { paper };
+enum class Method : std::uint8_t { paper, robust };
 enum class SimdPath : std::uint8_t { automatic, avx512, avx2, sse4, neon, baseline };
 enum class LogLevel : std::uint8_t { error, warning, info, debug };
 enum class Realtime : std::uint8_t { automatic, on, off };
@@ -100,6 +100,8 @@ struct ConvexCut {
   std::uint32_t planes = 360;
   double half_width_m = 0.05;
   double hull_distance_m = 0.08;
+  std::uint32_t window = 30;
+  double band_m = 0.06;
   std::uint32_t threads = 1;
   SimdPath simd = SimdPath::automatic;
 };

@@ -185,8 +185,9 @@ constexpr std::array kKeys{
         "encoder.timeout_ms", Integer{1, 10'000}, "ms",
         "How long an angle is held, or interpolated over, when messages are missing."),
 
-    bind_key<&Config::convex_cut, &ConvexCut::method>("convex_cut.method", kChoice<Method>, "",
-                                                      "The method; paper is the published one."),
+    bind_key<&Config::convex_cut, &ConvexCut::method>(
+        "convex_cut.method", kChoice<Method>, "",
+        "The method; paper is the published one, robust looks at several revolutions."),
     bind_key<&Config::convex_cut, &ConvexCut::planes>(
         "convex_cut.planes", Integer{1, 36'000}, "",
         "Vertical slicing planes over half a turn: 360 are 0.5° apart."),
@@ -196,6 +197,12 @@ constexpr std::array kKeys{
     bind_key<&Config::convex_cut, &ConvexCut::hull_distance_m>(
         "convex_cut.hull_distance_m", Number{0.0, 100.0}, "m",
         "A point is structure when it is at most this far from its slice's hull."),
+    bind_key<&Config::convex_cut, &ConvexCut::window>(
+        "convex_cut.window", Integer{1, 100}, "revolutions",
+        "Robust: the last revolutions that decide together."),
+    bind_key<&Config::convex_cut, &ConvexCut::band_m>(
+        "convex_cut.band_m", Number{0.001, 0.2}, "m",
+        "Robust: a point is structure when it is at most this far from an accepted surface."),
     bind_key<&Config::convex_cut, &ConvexCut::threads>("convex_cut.threads", Integer{1, 64}, "",
                                                        "Threads that share the work."),
     bind_key<&Config::convex_cut, &ConvexCut::simd>(

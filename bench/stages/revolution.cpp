@@ -32,7 +32,7 @@ Revolution revolution(double missing) {
   std::mt19937 random(4);
   Revolution made;
   for (std::size_t p = 0; p < kPackets; ++p) {
-    sim::DataPacket packet;
+    simulation::DataPacket packet;
     packet.first_firing = {static_cast<std::uint32_t>(p * 552'960 / 1000)};
     for (std::size_t b = 0; b < packet.blocks.size(); ++b) {
       const auto block = static_cast<std::int64_t>(p * packet.blocks.size() + b);
@@ -52,7 +52,7 @@ Revolution revolution(double missing) {
         ++made.returns;
       }
     }
-    made.packets.push_back(sim::encode(packet));
+    made.packets.push_back(simulation::encode(packet));
   }
   return made;
 }

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "apps/demo_room/hdl32e_packets.hpp"
+#include "replay/simulation/wire/hdl32e_packets.hpp"
 #include "core/scan/orientation_track.hpp"
 #include "core/time.hpp"
 
@@ -17,7 +17,7 @@ namespace convexcut::bench {
 inline constexpr HostTime kRevolutionBegin{std::chrono::hours{500'000}};
 
 struct Revolution {
-  std::vector<sim::DataPacketBytes> packets;  // 180: 2160 firings, 358.3° at 10 Hz
+  std::vector<simulation::DataPacketBytes> packets;  // 180: 2160 firings, 358.3° at 10 Hz
   std::size_t returns = 0;
 };
 

@@ -5,14 +5,18 @@
 //
 // stages_bench [--benchmark_out=FILE --benchmark_out_format=json …]
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "bench/convex_cut/room_cloud.hpp"
 #include "bench/stages/plain_decoder.hpp"
 #include "bench/stages/revolution.hpp"
+#include "core/convex_cut/engine.hpp"
+#include "core/convex_cut/streaming_cut.hpp"
 #include "core/return_batch.hpp"
 #include "core/scan/levelling.hpp"
 #include "core/scan/scan_cutter.hpp"
@@ -94,29 +98,43 @@ double at_share(const std::vector<double>& times, double share) {
   return sorted[static_cast<std::size_t>(static_cast<double>(sorted.size() - 1) * share)];
 }
 
+template <class Work>
+[[nodiscard]] double timed(Work work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// run(): does the work once and returns its time in seconds.
+template <class Run>
+void add(const std::string& name, double returns, Run run) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [run, returns](benchmark::State& state) {
+                                 static_cast<void>(run());
+                                 for (auto _ : state) {  // NOLINT: the library's idiom
+                                   state.SetIterationTime(run());
+                                   benchmark::ClobberMemory();
+                                 }
+                                 state.counters["returns"] = returns;
+                               })
+      ->UseManualTime()
+      ->Iterations(1)
+      ->Repetitions(kRepetitions)
+      ->ReportAggregatesOnly(true)
+      ->ComputeStatistics("p50", [](const auto& times) { return at_share(times, 0.5); })
+      ->ComputeStatistics("p99", [](const auto& times) { return at_share(times, 0.99); })
+      ->ComputeStatistics("max", [](const auto& times) { return at_share(times, 1.0); })
+      ->Unit(benchmark::kMicrosecond);
+}
+
 // run(Stages&): one pass over the revolution.
 template <class Run>
 void add(const std::string& name, Run run) {
   for (const double missing : {0.0, 0.25}) {
-    benchmark::RegisterBenchmark((name + (missing == 0.0 ? "/room" : "/outdoors")).c_str(),
-                                 [run, missing](benchmark::State& state) {
-                                   Stages& stages = stages_of(missing);
-                                   run(stages);
-                                   for (auto _ : state) {  // NOLINT: the library's idiom
-                                     run(stages);
-                                     benchmark::ClobberMemory();
-                                   }
-                                   state.counters["returns"] =
-                                       static_cast<double>(stages.input.returns);
-                                 })
-        ->UseRealTime()
-        ->Iterations(1)
-        ->Repetitions(kRepetitions)
-        ->ReportAggregatesOnly(true)
-        ->ComputeStatistics("p50", [](const auto& times) { return at_share(times, 0.5); })
-        ->ComputeStatistics("p99", [](const auto& times) { return at_share(times, 0.99); })
-        ->ComputeStatistics("max", [](const auto& times) { return at_share(times, 1.0); })
-        ->Unit(benchmark::kMicrosecond);
+    Stages& stages = stages_of(missing);
+    add(name + (missing == 0.0 ? "/room" : "/outdoors"),
+        static_cast<double>(stages.input.returns),
+        [run, &stages] { return timed([&] { run(stages); }); });
   }
 }
 
@@ -135,6 +153,55 @@ void add_all() {
   });
 }
 
+// Convex Cut of a revolution in a furnished room, seen by a tilted rig; in packets.
+struct Labelling {
+  explicit Labelling(double tilt_deg) : cloud(room_cloud(kFirings, tilt_deg)) {}
+
+  static constexpr std::size_t kFirings = 2170;
+  static constexpr std::size_t kPacket = 384;
+  RoomCloud cloud;
+  std::vector<Label> labels = std::vector<Label>(cloud.x.size());
+  ConvexCutEngine engine{{}, cloud.x.size(), 1};
+  StreamingCut streaming{{}, cloud.x.size()};
+
+  [[nodiscard]] CloudView first(std::size_t count) const {
+    const CloudView all = cloud.view();
+    return {all.x.first(count), all.y.first(count), all.z.first(count)};
+  }
+  // All packets but the last.
+  void stream() {
+    streaming.begin();
+    for (std::size_t end = kPacket; end < cloud.x.size(); end += kPacket) {
+      benchmark::DoNotOptimize(streaming.add(first(end)));
+    }
+  }
+};
+
+void add_labelling() {
+  for (const int tilt_deg : {0, 30, 60}) {
+    const auto shared = std::make_shared<Labelling>(tilt_deg);
+    const std::string tilt = "/tilt" + std::to_string(tilt_deg);
+    const auto returns = static_cast<double>(shared->cloud.x.size());
+    add("batch" + tilt, returns, [shared] {
+      return timed([&] {
+        benchmark::DoNotOptimize(shared->engine.label(shared->cloud.view(), shared->labels));
+      });
+    });
+    add("streaming_after_last_firing" + tilt, returns, [shared] {
+      shared->stream();
+      return timed([&] {
+        benchmark::DoNotOptimize(shared->streaming.finish(shared->cloud.view(), shared->labels));
+      });
+    });
+    add("streaming_in_all" + tilt, returns, [shared] {
+      return timed([&] {
+        shared->stream();
+        benchmark::DoNotOptimize(shared->streaming.finish(shared->cloud.view(), shared->labels));
+      });
+    });
+  }
+}
+
 }  // namespace
 }  // namespace convexcut::bench
 
@@ -148,6 +215,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
   benchmark::AddCustomContext("simd", std::string(convexcut::simd_path()));
   convexcut::bench::add_all();
+  convexcut::bench::add_labelling();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -4,13 +4,15 @@
 #include <bit>
 #include <limits>
 
+#include "core/convex_cut/orientation.hpp"
+
 #undef HWY_TARGET_INCLUDE
 // Highway includes this file again for each instruction set.
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
 #define HWY_TARGET_INCLUDE "core/convex_cut/polygon_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Behind foreach_target.h.
-#include "core/convex_cut/kernel_lanes-inl.hpp"
+#include "core/simd/kernel_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace convexcut::HWY_NAMESPACE {
@@ -61,6 +63,30 @@ void set_edges(const Polygon polygon, PolygonEdges& all_edges) {
   all_edges.count = polygon.size;
 }
 
+Turns find_turns(const Polygon polygon) {
+  const hn::ScalableTag<double> dd;
+  const auto filter = hn::Set(dd, kOrientationFilter);
+  Turns turns{true, 0};
+  for (std::size_t k = 0; k < polygon.size; k += hn::Lanes(dd)) {
+    const auto from_u = hn::LoadU(dd, polygon.u + k - 1);
+    const auto at_u = hn::LoadU(dd, polygon.u + k);
+    const auto to_u = hn::LoadU(dd, polygon.u + k + 1);
+    const auto to_z = hn::LoadU(dd, polygon.z + k + 1);
+    // As in orientation().
+    const auto left = hn::Mul(hn::Sub(from_u, to_u), hn::Sub(hn::LoadU(dd, polygon.z + k), to_z));
+    const auto right =
+        hn::Mul(hn::Sub(hn::LoadU(dd, polygon.z + k - 1), to_z), hn::Sub(at_u, to_u));
+    const auto determinant = hn::Sub(left, right);
+    const auto bound = hn::Mul(filter, hn::Add(hn::Abs(left), hn::Abs(right)));
+    const auto surely_left = hn::And(hn::Ge(determinant, bound), hn::Gt(determinant, hn::Zero(dd)));
+    const auto absent = hn::Not(hn::FirstN(dd, polygon.size - k));
+    turns.all_left = turns.all_left && hn::AllTrue(dd, hn::Or(surely_left, absent));
+    const auto reverses = hn::AndNot(absent, hn::And(hn::Ge(from_u, at_u), hn::Lt(at_u, to_u)));
+    turns.rounds += hn::CountTrue(dd, reverses);
+  }
+  return turns;
+}
+
 // Copies the edges that are over [least_u, most_u] and returns how many these are.
 HWY_INLINE std::size_t copy_facing(const PolygonEdges& edges, float least_u, float most_u,
                                    const EdgeColumns& facing) noexcept {
@@ -83,6 +109,8 @@ HWY_INLINE std::size_t copy_facing(const PolygonEdges& edges, float least_u, flo
 
 // Two vectors of members at once: an edge is loaded once for both.
 struct Pair {
+  // Written out: GCC compiles an implicit one without NEON's options.
+  HWY_INLINE Pair() noexcept {}
   Float u0, u1;
   Float z0, z1;
   Float depth0, depth1;
@@ -249,6 +277,7 @@ namespace convexcut {
 
 // Highway's table takes no noexcept functions; none of them throws.
 HWY_EXPORT(set_edges);
+HWY_EXPORT(find_turns);
 HWY_EXPORT(find_shallow);
 HWY_EXPORT(drop_deep);
 HWY_EXPORT(farthest_outside);
@@ -256,6 +285,10 @@ HWY_EXPORT(mark_near);
 
 void set_edges(const Polygon& polygon, PolygonEdges& edges) noexcept {
   HWY_DYNAMIC_DISPATCH(set_edges)(polygon, edges);
+}
+
+Turns find_turns(const Polygon& polygon) noexcept {
+  return HWY_DYNAMIC_DISPATCH(find_turns)(polygon);
 }
 
 std::size_t find_shallow(const PolygonEdges& edges, const EdgeColumns& facing,

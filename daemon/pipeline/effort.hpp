@@ -7,7 +7,8 @@ namespace convexcut::daemon {
 
 // How much is computed for a scan, in the order in which it is reduced when time is short. Fewer
 // planes come first: every point keeps its place and label, only structure seen by the left-out
-// planes alone is missed. Fewer points come last.
+// planes alone is missed. Fewer points come last. The robust method has no planes: its window
+// becomes shorter instead.
 enum class Effort : std::uint8_t {
   full,
   half_planes,     // every second slicing plane
@@ -20,6 +21,10 @@ inline constexpr Effort kLeastEffort = Effort::half_points;
 [[nodiscard]] constexpr std::uint32_t plane_stride(Effort effort) noexcept {
   if (effort == Effort::full) return 1;
   return effort == Effort::half_planes ? 2 : 4;
+}
+// Of the configured number of revolutions.
+[[nodiscard]] constexpr std::uint32_t window_divisor(Effort effort) noexcept {
+  return plane_stride(effort);
 }
 [[nodiscard]] constexpr std::uint32_t firing_stride(Effort effort) noexcept {
   return effort == Effort::half_points ? 2 : 1;

@@ -53,6 +53,9 @@ PipelineOptions pipeline_options(const config::Config& config, unsigned threads)
   options.convex_cut.planes = config.convex_cut.planes;
   options.convex_cut.half_width_m = config.convex_cut.half_width_m;
   options.convex_cut.hull_distance_m = config.convex_cut.hull_distance_m;
+  options.method = config.convex_cut.method;
+  options.robust.window = config.convex_cut.window;
+  options.robust.band_m = static_cast<float>(config.convex_cut.band_m);
   options.threads = threads != 0 ? threads : config.convex_cut.threads;
   options.fixed_mount = config.mount.orientation == config::MountOrientation::fixed;
   options.q_level_from_lidar =

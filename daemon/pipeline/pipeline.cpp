@@ -26,8 +26,12 @@ Pipeline::Pipeline(const PipelineOptions& options)
     : options_(options),
       cutter_(options.cut, options.max_returns_per_scan, kMaxFiringsPerScan),
       track_(kOrientations, options.orientation_max_age),
-      stage_track_(kStageAngles, options.stage_max_age),
-      engine_(options.convex_cut, options.max_returns_per_scan, options.threads) {
+      stage_track_(kStageAngles, options.stage_max_age) {
+  if (options.method == config::Method::robust) {
+    robust_.emplace(options.robust, options.max_returns_per_scan);
+  } else {
+    engine_.emplace(options.convex_cut, options.max_returns_per_scan, options.threads);
+  }
   for (WaitingScan& waiting : waiting_) {
     reserve(waiting.scan, options.max_returns_per_scan, kMaxFiringsPerScan);
   }
@@ -138,7 +142,12 @@ bool Pipeline::level_next(HostTime now, LevelledScan& out) noexcept {
 void Pipeline::cut(LevelledScan& scan) noexcept {
   // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
   // ever, every point would keep the label `other`.
-  static_cast<void>(engine_.label(scan.cloud(), scan.label, plane_stride(effort_)));
+  if (robust_) {
+    const std::uint32_t window = options_.robust.window / window_divisor(effort_);
+    static_cast<void>(robust_->label(scan.cloud(), scan.label, std::nullopt, window));
+  } else {
+    static_cast<void>(engine_->label(scan.cloud(), scan.label, plane_stride(effort_)));
+  }
   scan.structure_points = 0;
   for (const Label label : scan.label) scan.structure_points += label == Label::structure ? 1U : 0U;
 }
@@ -168,6 +177,7 @@ void Pipeline::restart_time() noexcept {
   imu_clock_steps_ = 0;
   track_.clear();
   stage_track_.clear();
+  if (robust_) robust_->forget();
 }
 
 Duration Pipeline::period_after(const Scan& scan) const noexcept {

@@ -4,7 +4,7 @@
 // `convexcut process`:
 //
 //   batches → unwrap and map time → put in order → cut into scans ┐
-//   samples → map time → orientation track ───────────────────────┼→ level → Convex Cut → scan
+//   samples → map time → orientation track ───────────────────────┼→ level → cut → scan
 //   angles of a turning stage → stage track ──────────────────────┘
 //
 // Knows no bytes, files, threads or topics. One thread calls it. RT after construction: allocates
@@ -20,6 +20,7 @@
 #include "core/clock/clock_mapping.hpp"
 #include "core/clock/hour_clock.hpp"
 #include "core/convex_cut/engine.hpp"
+#include "core/convex_cut/robust/robust_cut.hpp"
 #include "core/encoder_sample.hpp"
 #include "core/imu_sample.hpp"
 #include "core/return_batch.hpp"
@@ -55,7 +56,9 @@ enum class StageUse : std::uint8_t {
 
 struct PipelineOptions {
   CutOptions cut;
+  config::Method method = config::Method::paper;
   ConvexCutParameters convex_cut;
+  RobustParameters robust;
   unsigned threads = 1;
   // What a scan has beyond it is dropped and counted in overflow_returns.
   std::size_t max_returns_per_scan = kMostReturnsPerScan;
@@ -98,7 +101,7 @@ class Pipeline {
   // Levels the oldest scan into `out` if it is ready at `now`: its orientations are all there, or
   // will not come in time. False: none is ready.
   [[nodiscard]] bool level_next(HostTime now, LevelledScan& out) noexcept;
-  // Convex Cut: labels what level_next() gave.
+  // Labels what level_next() gave, by the chosen method.
   void cut(LevelledScan& scan) noexcept;
   // Both.
   [[nodiscard]] bool next_scan(HostTime now, LevelledScan& out) noexcept {
@@ -176,7 +179,9 @@ class Pipeline {
   ScanCutter cutter_;
   OrientationTrack track_;
   OrientationTrack stage_track_;
-  ConvexCutEngine engine_;
+  // One of the two.
+  std::optional<ConvexCutEngine> engine_;
+  std::optional<RobustCut> robust_;
 
   std::array<WaitingScan, kMaxWaiting> waiting_;  // a ring: first_waiting_ is the oldest
   std::size_t first_waiting_ = 0;

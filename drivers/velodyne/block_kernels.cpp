@@ -13,19 +13,14 @@
 #define HWY_TARGET_INCLUDE "drivers/velodyne/block_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Behind foreach_target.h.
-#include <hwy/highway.h>
-
-#include "core/simd/compressor-inl.hpp"
+#include "core/simd/kernel_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace convexcut::velodyne::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace convexcut::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): the kernels' own
 
 using Doubles = hn::ScalableTag<double>;
 using Double = hn::Vec<Doubles>;
-using Floats = hn::ScalableTag<float>;
-using Words = hn::ScalableTag<std::uint32_t>;
-using Word = hn::Vec<Words>;
 
 constexpr std::size_t kReturns = wire_layout::kReturnsPerBlock;
 
@@ -147,7 +142,7 @@ std::uint32_t append_echoes(const SlotTable& slots, const BlockReturns& block,
   for (std::size_t i = 0; i < kReturns; i += hn::Lanes(df)) {
     const auto range = hn::Load(df, &block.range_m[i]);
     const auto present = hn::Ne(range, hn::Zero(df));
-    const convexcut::HWY_NAMESPACE::Compressor compress(present);
+    const Compressor compress(present);
     const auto intensity = hn::PromoteTo(dw, hn::Load(db, &block.intensity[i]));
     hn::StoreU(compress(hn::Load(df, &block.x_lidar[i])), df, &batch.x_lidar[end]);
     hn::StoreU(compress(hn::Load(df, &block.y_lidar[i])), df, &batch.y_lidar[end]);
@@ -157,7 +152,7 @@ std::uint32_t append_echoes(const SlotTable& slots, const BlockReturns& block,
                &batch.offset_ns[end]);
     hn::StoreU(hn::U8FromU32(compress(intensity)), db, &batch.intensity[end]);
     hn::StoreU(hn::U8FromU32(compress(hn::Load(dw, &slots.ring[i]))), db, &batch.ring[end]);
-    const auto bits = static_cast<std::uint32_t>(convexcut::HWY_NAMESPACE::to_bits(present));
+    const auto bits = static_cast<std::uint32_t>(to_bits(present));
     echoes |= bits << i;
     end += static_cast<std::size_t>(std::popcount(bits));
   }

@@ -2,7 +2,6 @@
 #include "replay/simulation/lidar/lidar_simulator.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "replay/simulation/stream.hpp"
@@ -120,9 +119,9 @@ SimulatedReturn LidarSimulator::returned(const Echo& echo, const Chance& chance,
                                      options_.min_range_m, options_.max_range_m);
   const double brightness = 100.0 * echo.brightness + chance.speckle;
   SimulatedReturn made;
-  made.range_2mm = static_cast<std::uint16_t>(std::lround(measured / kRangeUnit));
+  made.range_2mm = static_cast<std::uint16_t>(measured * (1.0 / kRangeUnit) + 0.5);
   made.true_range_m = static_cast<float>(range);
-  made.intensity = static_cast<std::uint8_t>(std::clamp(std::lround(brightness), 1L, 100L));
+  made.intensity = static_cast<std::uint8_t>(std::clamp(brightness, 1.0, 100.0) + 0.5);
   if (chance.ghost) {
     made.flags = kIsolatedGhost;
     return made;

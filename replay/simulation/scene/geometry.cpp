@@ -21,8 +21,8 @@ Entry entry_of(float enter, std::uint32_t child) noexcept {
   return Entry{std::bit_cast<std::uint32_t>(enter)} << 32U | child;
 }
 
-// Deeper than any hierarchy that the builder makes, with three waiting children a level.
-using Stack = std::array<Entry, 256>;
+// Deeper than any hierarchy that the builder makes, with seven waiting children a level.
+using Stack = std::array<Entry, 512>;
 
 // What is nearest on a ray so far.
 struct Nearest {

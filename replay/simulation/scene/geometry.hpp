@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "replay/simulation/scene/bounds.hpp"
-#include "replay/simulation/scene/four_boxes.hpp"
+#include "replay/simulation/scene/eight_boxes.hpp"
 #include "replay/simulation/scene/ray.hpp"
 #include "replay/simulation/scene/shapes.hpp"
 
@@ -34,11 +34,11 @@ class Geometry {
   [[nodiscard]] const std::vector<Primitive>& primitives() const noexcept { return primitives_; }
 
  private:
-  // Four children, each in its box: primitives, or other nodes.
+  // Eight children at most, each in its box: primitives, or other nodes.
   struct Node {
     static constexpr std::uint32_t kIsNode = std::uint32_t{1} << 31U;
-    FourBoxes boxes = FourBoxes::nothing();
-    std::array<std::uint32_t, 4> children{};  // index, and the bit
+    EightBoxes boxes = EightBoxes::nothing();
+    std::array<std::uint32_t, EightBoxes::kLanes> children{};  // index, and the bit
   };
   class Builder;
 

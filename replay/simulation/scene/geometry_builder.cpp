@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Builds the hierarchy by the surface area heuristic in bins (Wald, "On fast Construction of
-// SAH-based Bounding Volume Hierarchies", 2007), four children a node.
+// SAH-based Bounding Volume Hierarchies", 2007), eight children a node.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -98,10 +98,10 @@ std::size_t split(Items items, int depth) {
   return items.size() / 2;
 }
 
-// Up to four parts of which none is empty.
+// Up to eight parts of which none is empty.
 std::vector<Items> parts_of(Items items, int depth) {
   std::vector<Items> parts{items};
-  while (parts.size() < 4) {
+  while (parts.size() < EightBoxes::kLanes) {
     const auto largest = std::ranges::max_element(parts, {}, [](Items part) {
       return part.size() == 1 ? -1.0 : bounds_of_items(part).area();
     });

@@ -52,7 +52,7 @@ struct RigPlan {
 };
 
 class BoxRay;
-struct FourBoxes;
+struct EightBoxes;
 struct PartPose;
 
 namespace detail {
@@ -88,9 +88,9 @@ class SceneAt {
     std::size_t boxes = 0;
   };
   std::vector<PartPose> poses_;
-  std::vector<FourBoxes> part_boxes_;
-  std::vector<Slot> slots_;             // by mover
-  std::vector<FourBoxes> mover_boxes_;  // around all parts of each
+  std::vector<EightBoxes> part_boxes_;
+  std::vector<Slot> slots_;              // by mover
+  std::vector<EightBoxes> mover_boxes_;  // around all parts of each
 };
 
 // Immutable; copies share what they hold.

@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "replay/simulation/scene/four_boxes.hpp"
+#include "replay/simulation/scene/eight_boxes.hpp"
 #include "replay/simulation/scene/scene.hpp"
 #include "replay/simulation/scene/scene_data.hpp"
 
 namespace convexcut::simulation {
 namespace {
 
-constexpr std::size_t kLanes = 4;
+constexpr std::size_t kLanes = EightBoxes::kLanes;
 
 // As Geometry::cast; the normal is the world's.
 void cast_on_part(const MoverPart& part, const PartPose& pose, const Ray& ray, Hit& hit) noexcept {
@@ -38,8 +38,8 @@ SceneAt::SceneAt(std::shared_ptr<const detail::SceneData> scene) : scene_(std::m
     next.boxes += (mover.parts.size() + kLanes - 1) / kLanes;
   }
   poses_.resize(next.pose);
-  part_boxes_.resize(next.boxes, FourBoxes::nothing());
-  mover_boxes_.resize((slots_.size() + kLanes - 1) / kLanes, FourBoxes::nothing());
+  part_boxes_.resize(next.boxes, EightBoxes::nothing());
+  mover_boxes_.resize((slots_.size() + kLanes - 1) / kLanes, EightBoxes::nothing());
 }
 
 SceneAt::SceneAt(const SceneAt&) = default;
@@ -84,7 +84,7 @@ void SceneAt::cast_on_mover(std::size_t index, const Ray& ray, const BoxRay& box
   const Mover& mover = scene_->movers[index];
   const Slot& slot = slots_[index];
   for (std::size_t first = 0; first < mover.parts.size(); first += kLanes) {
-    const FourBoxes& boxes = part_boxes_[slot.boxes + first / kLanes];
+    const EightBoxes& boxes = part_boxes_[slot.boxes + first / kLanes];
     box_ray.meet(boxes, limit_of(ray, hit), [&](std::size_t lane, float /*enter*/) {
       cast_on_part(mover.parts[first + lane], poses_[slot.pose + first + lane], ray, hit);
     });

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "config/value_text.hpp"
+#include "replay/simulation/scene/eight_boxes.hpp"
 #include "replay/simulation/scene/fields.hpp"
-#include "replay/simulation/scene/four_boxes.hpp"
 #include "replay/simulation/scene/group_reader.hpp"
 #include "replay/simulation/scene/mover_reader.hpp"
 #include "replay/simulation/scene/problems.hpp"
@@ -99,7 +99,7 @@ void read_root(Fields root, const std::filesystem::path& directory, const SceneO
                detail::SceneData& scene, Problems& problems) {
   scene.description = root.text_or("description", "");
   scene.rig = read_rig(root);
-  GroupReader groups(directory, problems);
+  GroupReader groups(directory);
   if (auto templates = root.table("template")) groups.read_templates(*templates);
   Assembly assembly(scene, problems);
   assembly.add(groups.read(root));

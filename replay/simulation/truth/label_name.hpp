@@ -10,7 +10,7 @@
 
 namespace convexcut::simulation {
 
-// Names: kLabelNames or kMaterialNames. A value without a name (SurfaceLabel::none) gives "".
+// Names: kLabelNames or kMaterialNames. Nothing for a value or a word that is not among them.
 template <class Names, class Value>
 [[nodiscard]] constexpr std::string_view name_in(const Names& names, Value value) noexcept {
   for (const auto& [name, named] : names) {
@@ -18,8 +18,6 @@ template <class Names, class Value>
   }
   return {};
 }
-
-// Nothing for another word.
 template <class Names>
 [[nodiscard]] constexpr auto named_in(const Names& names, std::string_view name) noexcept {
   std::optional<decltype(names.front().second)> found;
@@ -27,6 +25,13 @@ template <class Names>
     if (known == name) found = value;
   }
   return found;
+}
+
+[[nodiscard]] constexpr std::string_view name_of(SurfaceLabel label) noexcept {
+  return label == SurfaceLabel::none ? "none" : name_in(kLabelNames, label);
+}
+[[nodiscard]] constexpr std::string_view name_of(Material material) noexcept {
+  return name_in(kMaterialNames, material);
 }
 
 }  // namespace convexcut::simulation

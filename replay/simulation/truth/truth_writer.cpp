@@ -54,11 +54,10 @@ toml::table scene_table(const Scene& scene) {
   table.insert("name", scene.name());
   toml::array surfaces;
   for (const SurfaceInfo& surface : scene.surfaces()) {
-    surfaces.push_back(
-        toml::table{{"name", surface.name},
-                    {"label", std::string(name_in(kLabelNames, surface.label))},
-                    {"material", std::string(name_in(kMaterialNames, surface.material))},
-                    {"reflectivity", surface.reflectivity}});
+    surfaces.push_back(toml::table{{"name", surface.name},
+                                   {"label", std::string(name_of(surface.label))},
+                                   {"material", std::string(name_of(surface.material))},
+                                   {"reflectivity", surface.reflectivity}});
   }
   table.insert("surface", std::move(surfaces));
   return table;

@@ -10,12 +10,13 @@
 #include "core/convex_cut/engine.hpp"
 #include "core/convex_cut/reference.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
+#include "core/convex_cut/streaming_cut.hpp"
 #include "core/simd/simd_path.hpp"
 
 namespace convexcut::test {
 namespace {
 
-constexpr std::array<std::uint32_t, 8> kPlanes{1, 2, 3, 4, 7, 16, 45, 90};
+constexpr std::array<std::uint32_t, 8> kPlanes{1, 2, 3, 4, 7, 12, 16, 45};
 constexpr std::array<double, 8> kHalfWidths{0.05, 0.02, 0.1, 0.25, 1.0, 2.0, 1e-4, 1e-6};
 constexpr std::array<double, 8> kHullDistances{0.08, 0.05, 0.0, 0.25, 1.0, 50.0, 1e-3, 1e-7};
 // Powers of two: the angles of fewer planes then are those of every so manyth, bit by bit.
@@ -61,7 +62,9 @@ class Builder {
                                  &Builder::slice_edge, &Builder::chord,  &Builder::circle,
                                  &Builder::lattice,    &Builder::mirror, &Builder::scatter,
                                  &Builder::rescale};
-    while (!read_.at_end() && made_.cloud.size() < kMaxFuzzedPoints) {
+    // Small clouds are tried more often in the same time; large ones have more candidates for a hull.
+    most_ = read_.byte() % 8U == 0 ? kMaxFuzzedPoints : kMaxFuzzedPoints / 6;
+    while (!read_.at_end() && made_.cloud.size() < most_) {
       (this->*kShapes[read_.byte() % kShapes.size()])();
     }
     return std::move(made_);
@@ -70,7 +73,7 @@ class Builder {
  private:
   void add(double x, double y, double z) {
     const double greatest = std::max({std::abs(x), std::abs(y), std::abs(z)});
-    if (made_.cloud.size() < kMaxFuzzedPoints && greatest <= static_cast<double>(kMaxCoordinateM)) {
+    if (made_.cloud.size() < most_ && greatest <= static_cast<double>(kMaxCoordinateM)) {
       made_.cloud.add(x, y, z);
     }
   }
@@ -184,6 +187,7 @@ class Builder {
   Reader read_;
   FuzzedCloud made_;
   double scale_ = 1.0;
+  std::size_t most_ = 0;
 };
 
 // Every plane_stride-th plane is Convex Cut with that many planes less, where it divides them.
@@ -195,6 +199,18 @@ class Builder {
   return labels;
 }
 
+// In two pieces at a quarter's and a half's end, then the rest: some slices are done early, and again.
+[[nodiscard]] bool streaming_differs(const FuzzedCloud& input, const std::vector<Label>& expected) {
+  const CloudView all = input.cloud.view();
+  StreamingCut cut(input.parameters, all.size());
+  cut.begin();
+  for (const std::size_t end : {all.size() / 4, all.size() / 2}) {
+    if (cut.add({all.x.first(end), all.y.first(end), all.z.first(end)}) != CutStatus::ok) return true;
+  }
+  std::vector<Label> labels(all.size(), Label::structure);
+  return cut.finish(all, labels) != CutStatus::ok || labels != expected;
+}
+
 }  // namespace
 
 FuzzedCloud fuzzed_cloud(std::span<const std::uint8_t> bytes) { return Builder(bytes).build(); }
@@ -204,8 +220,9 @@ std::string_view differing_path(const FuzzedCloud& input) {
   const std::uint32_t stride =
       input.parameters.planes % input.plane_stride == 0 ? input.plane_stride : 1;
   static const std::vector<std::string_view> paths = simd_paths();
-  // Starting threads costs more than all the rest.
-  const bool with_two = input.cloud.size() % 8 == 0;
+  // Starting threads costs more than all the rest, as does streaming.
+  const bool with_two = input.cloud.size() % 32 == 0;
+  const bool with_streaming = stride == 1 && input.cloud.size() % 4 == 1;
   std::string_view differs;
   for (const unsigned threads : {1U, 2U}) {
     if (threads == 2 && !with_two) break;
@@ -218,6 +235,7 @@ std::string_view differing_path(const FuzzedCloud& input) {
     }
   }
   static_cast<void>(use_simd_path("auto"));
+  if (with_streaming && streaming_differs(input, expected)) return "streaming";
   return differs;
 }
 

@@ -7,7 +7,7 @@
 
 #include <hwy/highway.h>
 
-#include "core/convex_cut/lanes_in_front.hpp"
+#include "core/simd/lanes_in_front.hpp"
 
 // Highway's guard: once for each instruction set.
 #if defined(CONVEXCUT_KERNEL_LANES_INL) == defined(HWY_TARGET_TOGGLE)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes along the axes as floats, four at a time, and the question which of them a ray may meet.
+// Boxes along the axes as floats, eight at a time, and the question which of them a ray may meet.
 // The answer is never a false no: boxes are padded by more than float rounds their coordinates, and
 // distances, which round by parts of themselves, are compared with slack.
 #pragma once
@@ -26,13 +26,14 @@ namespace convexcut::simulation {
 // Metres, ±: within this a float box is exact to 0.03 mm, less than its padding.
 inline constexpr double kLargestCoordinate = 500.0;
 
-struct FourBoxes {
-  using Lanes = std::array<float, 4>;
+struct EightBoxes {
+  static constexpr std::size_t kLanes = 8;
+  using Lanes = std::array<float, kLanes>;
   std::array<std::array<Lanes, 3>, 2> sides;  // [low, high][axis]
 
-  // Four boxes that no ray meets.
-  [[nodiscard]] static FourBoxes nothing() noexcept {
-    FourBoxes boxes;
+  // Boxes that no ray meets.
+  [[nodiscard]] static EightBoxes nothing() noexcept {
+    EightBoxes boxes;
     for (Lanes& lanes : boxes.sides[0]) lanes.fill(std::numeric_limits<float>::infinity());
     for (Lanes& lanes : boxes.sides[1]) lanes.fill(-std::numeric_limits<float>::infinity());
     return boxes;
@@ -48,7 +49,8 @@ struct FourBoxes {
   }
 };
 
-// The compilers make one instruction of each operation on these.
+// Half of the eight: what every processor has registers for. The compilers make one instruction of
+// each operation on these.
 using Floats = float __attribute__((vector_size(16)));
 using Masks = std::int32_t __attribute__((vector_size(16)));  // all bits, or none
 
@@ -72,19 +74,22 @@ class BoxRay {
 
   // Calls met(lane, where the ray enters, ≥ 0) for each box that the ray may meet before `limit`.
   template <class Met>
-  void meet(const FourBoxes& boxes, float limit, Met&& met) const noexcept {
-    Floats enter = least_;
-    Floats leave = all(limit);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t backwards = backwards_[axis];
-      const Floats near = load(boxes.sides[backwards][axis]);
-      const Floats far = load(boxes.sides[1 - backwards][axis]);
-      enter = larger(enter, (near - origin_[axis]) * inverse_[axis]);
-      leave = smaller(leave, (far - origin_[axis]) * inverse_[axis]);
+  void meet(const EightBoxes& boxes, float limit, Met&& met) const noexcept {
+    unsigned hits = 0;
+    EightBoxes::Lanes enters;
+    for (std::size_t first = 0; first < EightBoxes::kLanes; first += 4) {
+      Floats enter = least_;
+      Floats leave = all(limit);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t backwards = backwards_[axis];
+        const Floats near = load(boxes.sides[backwards][axis], first);
+        const Floats far = load(boxes.sides[1 - backwards][axis], first);
+        enter = larger(enter, (near - origin_[axis]) * inverse_[axis]);
+        leave = smaller(leave, (far - origin_[axis]) * inverse_[axis]);
+      }
+      hits |= bits_of(enter <= leave * all(1.0F + kRelativeSlack)) << first;
+      std::memcpy(enters.data() + first, &enter, sizeof enter);
     }
-    unsigned hits = bits_of(enter <= leave * all(1.0F + kRelativeSlack));
-    FourBoxes::Lanes enters;
-    std::memcpy(enters.data(), &enter, sizeof enter);
     for (; hits != 0; hits &= hits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(hits));
       met(lane, enters[lane]);
@@ -113,9 +118,9 @@ class BoxRay {
     return bits;
 #endif
   }
-  static Floats load(const FourBoxes::Lanes& lanes) noexcept {
+  static Floats load(const EightBoxes::Lanes& lanes, std::size_t first) noexcept {
     Floats floats;
-    std::memcpy(&floats, lanes.data(), sizeof floats);
+    std::memcpy(&floats, lanes.data() + first, sizeof floats);
     return floats;
   }
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/fixtures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace convexcut::robust {
+namespace {
+
+constexpr std::size_t kMostCells = 1U << 16U;
+constexpr std::int32_t kLeastPoints = 20;  // of a cell, for a mean to half a centimetre
+constexpr float kOffM = 0.014F;            // the wall itself is flatter than this
+constexpr std::size_t kLeastCells = 3;
+constexpr std::uint32_t kLargeSurfels = 60;  // of a wall; smaller ones have no sure face
+constexpr float kBinM = 0.004F;
+constexpr std::size_t kBins = 41;  // ±8 cm
+constexpr float kToFloorM = 0.4F;
+constexpr float kDoorHeightM = 1.5F;
+constexpr float kRoomHighM = 2.2F;  // a layer as high as that is a part of the wall
+constexpr float kLeastDoorM = 0.5F;
+constexpr float kMostDoorM = 1.3F;
+constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
+
+[[nodiscard]] float mean_of(const Cell& cell) noexcept {
+  return cell.height_sum_m / static_cast<float>(cell.points);
+}
+
+// The height over the plane that most cells have.
+[[nodiscard]] float face_of(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
+  std::array<std::int32_t, kBins> cells{};
+  for (std::int32_t row = 0; row < grid.rows; ++row) {
+    for (std::int32_t column = 0; column < grid.columns; ++column) {
+      const Cell& cell = grids.cell(grid, column, row);
+      if (!cell.structure || cell.points < kLeastPoints) continue;
+      const auto bin = static_cast<std::ptrdiff_t>(std::lround(mean_of(cell) / kBinM)) +
+                       static_cast<std::ptrdiff_t>(kBins / 2);
+      if (bin > 0 && bin < static_cast<std::ptrdiff_t>(kBins) - 1) {
+        ++cells.at(static_cast<std::size_t>(bin));
+      }
+    }
+  }
+  std::size_t best = kBins / 2;
+  std::int32_t most = 0;
+  for (std::size_t bin = 1; bin + 1 < kBins; ++bin) {
+    const std::int32_t around = cells.at(bin - 1) + 2 * cells.at(bin) + cells.at(bin + 1);
+    if (around > most) {
+      most = around;
+      best = bin;
+    }
+  }
+  return (static_cast<float>(best) - static_cast<float>(kBins / 2)) * kBinM;
+}
+
+[[nodiscard]] bool is_off(const Cell& cell, float face_m) noexcept {
+  return cell.structure && !cell.visited && cell.points >= kLeastPoints &&
+         std::abs(mean_of(cell) - face_m) > kOffM;
+}
+
+}  // namespace
+
+Fixtures::Fixtures() { layer_.reserve(kMostCells); }
+
+void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    Plane& plane = model.planes[k];
+    if (!plane.accepted || !plane.vertical || plane.surfels < kLargeSurfels) continue;
+    const PlaneGrid& grid = grids.grid(k);
+    plane.face_m = face_of(grids, grid);
+    for (std::int32_t row = 0; row < grid.rows; ++row) {
+      for (std::int32_t column = 0; column < grid.columns; ++column) {
+        if (!is_off(grids.cell(grid, column, row), plane.face_m)) continue;
+        collect_layer(grids, grid, plane.face_m, {column, row});
+        if (layer_.size() >= kLeastCells && !is_of_the_wall(model, plane, grid)) continue;
+        for (const Place& at : layer_) grids.cell(grid, at.column, at.row).layer_m = 0.0F;
+      }
+    }
+  }
+}
+
+void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float face_m,
+                             Place seed) noexcept {
+  layer_.clear();
+  const auto take = [&](std::int32_t column, std::int32_t row) {
+    Cell& cell = grids.cell(grid, column, row);
+    cell.visited = true;
+    cell.layer_m = mean_of(cell) - face_m;
+    layer_.push_back({column, row});
+  };
+  take(seed.column, seed.row);
+  const float sign = grids.cell(grid, seed.column, seed.row).layer_m;
+  for (std::size_t next = 0; next < layer_.size(); ++next) {
+    const Place at = layer_[next];
+    for (std::int32_t row = at.row - 1; row <= at.row + 1; ++row) {
+      for (std::int32_t column = at.column - 1; column <= at.column + 1; ++column) {
+        if (!grid.holds(column, row) || layer_.size() == kMostCells) continue;
+        const Cell& cell = grids.cell(grid, column, row);
+        if (is_off(cell, face_m) && (mean_of(cell) - face_m) * sign > 0.0F) take(column, row);
+      }
+    }
+  }
+}
+
+bool Fixtures::is_of_the_wall(const Model& model, const Plane& plane,
+                              const PlaneGrid& grid) const noexcept {
+  Place low = layer_.front();
+  Place high = low;
+  for (const Place& at : layer_) {
+    low = {std::min(low.column, at.column), std::min(low.row, at.row)};
+    high = {std::max(high.column, at.column), std::max(high.row, at.row)};
+  }
+  const float bottom = grid.centre(plane, low.column, low.row).z() - kCellM / 2;
+  const float width = static_cast<float>(high.column - low.column + 1) * kCellM;
+  const float height = static_cast<float>(high.row - low.row + 1) * kCellM;
+  const float solid = static_cast<float>(layer_.size()) * kCellM * kCellM / (width * height);
+  if (std::isinf(model.floor_z) || bottom > model.floor_z + kToFloorM) return false;
+  const bool like_a_door = height >= kDoorHeightM && width >= kLeastDoorM && width <= kMostDoorM;
+  return (like_a_door || height >= kRoomHighM) && solid >= kSolid;
+}
+
+}  // namespace convexcut::robust

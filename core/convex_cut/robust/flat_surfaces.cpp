@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/flat_surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace convexcut::robust {
+namespace {
+
+constexpr std::size_t kMostCellsOfAPart = 1U << 18U;
+constexpr std::int32_t kReach = 2;  // cells: gaps within a part, and the ring around it
+constexpr std::size_t kLeastCells = 6;
+constexpr std::size_t kMostParts = 4'096;
+constexpr float kLeastBeamM = 2.5F;
+constexpr float kMostBeamM = 0.8F;
+constexpr float kBeamHeightM = 0.7F;
+constexpr float kTableM = 0.2F;           // above the floor
+constexpr float kMostlyOver = 0.7F;       // of its extent
+constexpr std::uint16_t kPassed = 2;      // one ray alone may be a ghost's
+constexpr float kMostOpenRing = 0.25F;    // share of the ring that may be passed
+constexpr float kMostOpenInside = 0.40F;  // and of the part itself
+constexpr float kLevel = 0.97F;           // |z| of a normal
+constexpr std::uint32_t kLargeSurfels = 30;
+
+template <class Visit>
+void for_each_within_reach(const PlaneGrid& grid, std::int32_t column, std::int32_t row,
+                           Visit&& visit) noexcept {
+  for (std::int32_t r = row - kReach; r <= row + kReach; ++r) {
+    for (std::int32_t c = column - kReach; c <= column + kReach; ++c) {
+      if (grid.holds(c, r)) visit(c, r);
+    }
+  }
+}
+
+}  // namespace
+
+FlatSurfaces::FlatSurfaces() {
+  part_.reserve(kMostCellsOfAPart);
+  ring_.reserve(kMostCellsOfAPart);
+  parts_.reserve(2 * kMostParts);
+  open_parts_.reserve(kMostParts);
+}
+
+void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
+                        bool free_space) noexcept {
+  parts_.clear();
+  open_parts_.clear();
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    if (model.planes[k].vertical) continue;
+    const PlaneGrid& grid = grids.grid(k);
+    std::int16_t id = 0;
+    for (std::int32_t row = 0; row < grid.rows; ++row) {
+      for (std::int32_t column = 0; column < grid.columns; ++column) {
+        const Cell& cell = grids.cell(grid, column, row);
+        if (cell.seen == 0 || cell.part >= 0) continue;
+        collect_part(grids, grid, {column, row}, id);
+        if (part_.size() >= kLeastCells) {
+          const bool bounds = !free_space || bounds_free_space(grids, grid, id);
+          add_part(model.planes[k], k, grid, id, bounds ? parts_ : open_parts_);
+        }
+        ++id;
+      }
+    }
+  }
+  if (free_space) reject_table_tops(model, origin);
+  for (const Part& part : parts_) accept(model, grids, part);
+  find_levels(model, origin);
+  const std::size_t before = parts_.size();
+  add_beams(model);
+  for (std::size_t i = before; i < parts_.size(); ++i) accept(model, grids, parts_[i]);
+}
+
+void FlatSurfaces::add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid,
+                            std::int16_t id, std::vector<Part>& parts) noexcept {
+  if (parts.size() == kMostParts) return;
+  Part part{k, id, part_.size(), Vec3f::Constant(1e9F), Vec3f::Constant(-1e9F)};
+  for (const Place& at : part_) {
+    const Vec3f centre = grid.centre(plane, at.column, at.row);
+    part.low = part.low.cwiseMin(centre);
+    part.high = part.high.cwiseMax(centre);
+  }
+  parts.push_back(part);
+}
+
+bool FlatSurfaces::is_above_floor(const Part& part, const Part& floor) const noexcept {
+  if (part.low.z() < floor.high.z() + kTableM || 4 * part.cells > floor.cells) return false;
+  const Eigen::Array2f size = (part.high - part.low).head<2>().array() + kCellM;
+  const Eigen::Array2f shared =
+      (part.high.cwiseMin(floor.high) - part.low.cwiseMax(floor.low)).head<2>().array() + kCellM;
+  return (shared > 0.0F).all() && shared.prod() > kMostlyOver * size.prod();
+}
+
+void FlatSurfaces::reject_table_tops(const Model& model, const Vec3f& origin) noexcept {
+  const Part* floor = nullptr;
+  for (const Part& part : parts_) {
+    if (model.planes[part.plane].normal.z() < kLevel || part.high.z() > origin.z()) continue;
+    if (floor == nullptr || part.cells > floor->cells) floor = &part;
+  }
+  if (floor == nullptr) return;
+  const Part largest = *floor;
+  std::erase_if(parts_, [&](const Part& part) {
+    return part.high.z() < origin.z() && is_above_floor(part, largest);
+  });
+}
+
+// The undersides of beams: long, and close under the ceiling.
+void FlatSurfaces::add_beams(const Model& model) noexcept {
+  for (const Part& part : open_parts_) {
+    const Eigen::Array2f size = (part.high - part.low).head<2>().array() + kCellM;
+    if (model.planes[part.plane].normal.z() < -kLevel && size.maxCoeff() > kLeastBeamM &&
+        size.minCoeff() < kMostBeamM && part.low.z() > model.ceiling_z - kBeamHeightM &&
+        part.high.z() < model.ceiling_z) {
+      parts_.push_back(part);
+    }
+  }
+}
+
+void FlatSurfaces::accept(Model& model, PlaneGrids& grids, const Part& part) const noexcept {
+  model.planes[part.plane].accepted = true;
+  const PlaneGrid& grid = grids.grid(part.plane);
+  for (std::int32_t row = 0; row < grid.rows; ++row) {
+    for (std::int32_t column = 0; column < grid.columns; ++column) {
+      Cell& cell = grids.cell(grid, column, row);
+      if (cell.part == part.id) cell.structure = true;
+    }
+  }
+}
+
+void FlatSurfaces::find_levels(Model& model, const Vec3f& origin) const noexcept {
+  model.floor_z = -std::numeric_limits<float>::infinity();
+  model.ceiling_z = std::numeric_limits<float>::infinity();
+  for (const Plane& plane : model.planes) {
+    if (plane.vertical || !plane.accepted || std::abs(plane.normal.z()) < kLevel ||
+        plane.surfels < kLargeSurfels) {
+      continue;
+    }
+    const float z = -plane.offset / plane.normal.z();
+    if (z < origin.z() && (std::isinf(model.floor_z) || z < model.floor_z)) model.floor_z = z;
+    if (z > origin.z() && (std::isinf(model.ceiling_z) || z > model.ceiling_z)) {
+      model.ceiling_z = z;
+    }
+  }
+}
+
+void FlatSurfaces::collect_part(PlaneGrids& grids, const PlaneGrid& grid, Place seed,
+                                std::int16_t id) noexcept {
+  part_.clear();
+  part_.push_back(seed);
+  grids.cell(grid, seed.column, seed.row).part = id;
+  for (std::size_t next = 0; next < part_.size(); ++next) {
+    const Place at = part_[next];
+    for_each_within_reach(grid, at.column, at.row, [&](std::int32_t c, std::int32_t r) {
+      Cell& cell = grids.cell(grid, c, r);
+      if (cell.seen == 0 || cell.part >= 0) return;
+      cell.part = id;
+      part_.push_back({c, r});
+    });
+  }
+}
+
+bool FlatSurfaces::bounds_free_space(PlaneGrids& grids, const PlaneGrid& grid,
+                                     std::int16_t id) noexcept {
+  ring_.clear();
+  std::size_t open_inside = 0;
+  std::size_t open_ring = 0;
+  for (const Place& at : part_) {
+    open_inside += grids.cell(grid, at.column, at.row).passed >= kPassed ? 1U : 0U;
+    for_each_within_reach(grid, at.column, at.row, [&](std::int32_t c, std::int32_t r) {
+      Cell& cell = grids.cell(grid, c, r);
+      if (cell.part == id || cell.visited) return;
+      cell.visited = true;
+      ring_.push_back({c, r});
+      open_ring += cell.passed >= kPassed ? 1U : 0U;
+    });
+  }
+  for (const Place& at : ring_) grids.cell(grid, at.column, at.row).visited = false;
+  return static_cast<float>(open_ring) < kMostOpenRing * static_cast<float>(ring_.size()) &&
+         static_cast<float>(open_inside) < kMostOpenInside * static_cast<float>(part_.size());
+}
+
+}  // namespace convexcut::robust

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/convex_cut/robust/model.hpp"
+#include "core/convex_cut/robust/plane_grid.hpp"
+
+namespace convexcut::robust {
+
+// Floors, ceilings and slopes: of the planes that are not vertical, the connected parts around
+// which nothing is seen behind. A table's top is passed by rays to the floor on all sides; where
+// these are hidden, it is told by the floor that goes on around it.
+class FlatSurfaces {
+ public:
+  FlatSurfaces();
+
+  // Marks their cells, and finds the model's floor and ceiling. free_space: as in
+  // RobustParameters.
+  void find(Model& model, PlaneGrids& grids, const Vec3f& origin, bool free_space) noexcept;
+
+ private:
+  struct Place {
+    std::int32_t column, row;
+  };
+  // Connected cells that bound the free space.
+  struct Part {
+    std::size_t plane = 0;
+    std::int16_t id = 0;
+    std::size_t cells = 0;
+    Vec3f low, high;  // of its cells' centres
+  };
+  void add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid, std::int16_t id,
+                std::vector<Part>& parts) noexcept;
+  [[nodiscard]] bool is_above_floor(const Part& part, const Part& floor) const noexcept;
+  void reject_table_tops(const Model& model, const Vec3f& origin) noexcept;
+  void accept(Model& model, PlaneGrids& grids, const Part& part) const noexcept;
+  void add_beams(const Model& model) noexcept;
+  void find_levels(Model& model, const Vec3f& origin) const noexcept;
+  void collect_part(PlaneGrids& grids, const PlaneGrid& grid, Place seed, std::int16_t id) noexcept;
+  [[nodiscard]] bool bounds_free_space(PlaneGrids& grids, const PlaneGrid& grid,
+                                       std::int16_t id) noexcept;
+
+  std::vector<Place> part_;  // also the queue of the search for it
+  std::vector<Place> ring_;
+  std::vector<Part> parts_;
+  std::vector<Part> open_parts_;  // that are passed around
+};
+
+}  // namespace convexcut::robust

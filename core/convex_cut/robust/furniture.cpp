@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/furniture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace convexcut::robust {
+namespace {
+
+constexpr float kParallel = 0.98F;  // cosine
+constexpr float kDeepestM = 1.0F;   // furniture before its wall
+constexpr float kFixtureM = 0.12F;  // boards, shades, radiators
+constexpr float kFlushM = 0.045F;   // nearer is the wall itself
+constexpr float kReachM = 2.0F;     // a wall counts as far as this beside what was seen of it
+constexpr float kGoesOnM = 0.2F;    // beside or above the front
+constexpr float kNeighbourM = 1.0F;
+constexpr float kNarrowM = 0.8F;
+constexpr float kToCeilingM = 0.45F;
+constexpr float kTallerThanFurnitureM = 2.4F;
+constexpr float kLeastHeightM = 1.0F;  // of a narrow face
+constexpr float kTouchM = 0.4F;
+constexpr float kSameTopM = 0.6F;
+constexpr float kRounder = 1.7F;   // spread², relative to the noise²
+constexpr float kHangingM = 1.6F;  // over the floor
+constexpr float kLeastBeamM = 1.6F;
+constexpr int kPasses = 2;  // fronts before fronts
+
+struct PlaneExtent {
+  float begin_m = 1e9F, end_m = -1e9F;
+  void add(const WallSegment& s) noexcept {
+    begin_m = std::min(begin_m, s.begin_m);
+    end_m = std::max(end_m, s.end_m);
+  }
+};
+
+[[nodiscard]] bool is_tall(const Model& model, const WallSegment& s) noexcept {
+  const bool floor_known = !std::isinf(model.floor_z);
+  return s.top_m > model.ceiling_z - kToCeilingM ||
+         (floor_known && s.top_m > model.floor_z + kTallerThanFurnitureM);
+}
+
+// Of all its segments, or of those accepted.
+[[nodiscard]] PlaneExtent extent_of(const Model& model, std::size_t plane,
+                                    bool accepted_only) noexcept {
+  PlaneExtent extent;
+  for (const WallSegment& s : model.segments) {
+    if (s.plane == plane && (s.accepted || !accepted_only)) extent.add(s);
+  }
+  return extent;
+}
+
+// The highest part of a plane's accepted segments near a stretch along it.
+[[nodiscard]] float top_near(const Model& model, std::size_t plane, const WallSegment& s) noexcept {
+  float top = -1e9F;
+  for (const WallSegment& other : model.segments) {
+    if (other.plane != plane || !other.accepted) continue;
+    if (other.begin_m < s.end_m + kNeighbourM && other.end_m > s.begin_m - kNeighbourM) {
+      top = std::max(top, other.top_m);
+    }
+  }
+  return top;
+}
+
+[[nodiscard]] Vec3f along_of(const Plane& plane) noexcept {
+  return Vec3f::UnitZ().cross(plane.normal).normalized();
+}
+
+// On the plane, at height 0 of its axis `up`.
+[[nodiscard]] Vec3f point_of(const Plane& plane, float along_m) noexcept {
+  return along_of(plane) * along_m - plane.normal * plane.offset;
+}
+
+[[nodiscard]] bool stands_before(const Model& model, const WallSegment& front, std::size_t wall,
+                                 bool tall) noexcept {
+  const Plane& plane = model.planes[front.plane];
+  const Plane& behind = model.planes[wall];
+  if (!behind.vertical || behind.normal.dot(plane.normal) < kParallel) return false;
+  const float depth = behind.height_of(point_of(plane, (front.begin_m + front.end_m) / 2));
+  if (depth < kFlushM || depth > kDeepestM) return false;
+  const bool fixture = depth < kFixtureM;
+  if (fixture ? behind.surfels < plane.surfels : tall) return false;
+  const PlaneExtent of_wall = extent_of(model, wall, true);
+  if (of_wall.begin_m > front.end_m + kReachM || of_wall.end_m < front.begin_m - kReachM) {
+    return false;
+  }
+  const PlaneExtent of_front = extent_of(model, front.plane, false);
+  const bool beyond =
+      of_wall.begin_m < of_front.begin_m - kGoesOnM || of_wall.end_m > of_front.end_m + kGoesOnM;
+  const bool above = top_near(model, wall, front) > front.top_m + kGoesOnM;
+  const bool wide = front.end_m - front.begin_m > kNarrowM;
+  return (beyond || above) && (wide || fixture);
+}
+
+// Whether a face meets a rejected one of about its height at an edge.
+[[nodiscard]] bool is_side_of_rejected(const Model& model, const WallSegment& face) noexcept {
+  const Plane& plane = model.planes[face.plane];
+  const std::array<Vec3f, 2> ends{point_of(plane, face.begin_m), point_of(plane, face.end_m)};
+  for (const WallSegment& other : model.segments) {
+    if (other.accepted || other.plane == face.plane) continue;
+    const Plane& across = model.planes[other.plane];
+    if (std::abs(across.normal.dot(plane.normal)) > 0.5F) continue;
+    if (std::abs(other.top_m - face.top_m) > kSameTopM) continue;
+    for (const float m : {other.begin_m, other.end_m}) {
+      const Vec3f edge = point_of(across, m);
+      for (const Vec3f& end : ends) {
+        if ((end - edge).head<2>().norm() < kTouchM) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void reject_furniture(Model& model) noexcept {
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (WallSegment& s : model.segments) {
+      if (!s.accepted) continue;
+      const bool tall = is_tall(model, s);
+      for (std::size_t wall = 0; wall < model.planes.size() && s.accepted; ++wall) {
+        if (wall != s.plane && stands_before(model, s, wall, tall)) {
+          s.accepted = false;
+          s.furniture = true;
+        }
+      }
+      s.narrow = !tall && s.end_m - s.begin_m < kNarrowM;
+    }
+  }
+  for (WallSegment& s : model.segments) {
+    // Short things that hang are lamps.
+    if (s.accepted && s.bottom_m > model.floor_z + kHangingM && !std::isinf(model.floor_z) &&
+        s.end_m - s.begin_m < kLeastBeamM) {
+      s.accepted = false;
+    }
+    if (!s.accepted || !s.narrow) continue;
+    const bool round = model.planes[s.plane].spread2 > kRounder * model.noise2;
+    if (round || s.top_m - s.bottom_m < kLeastHeightM || is_side_of_rejected(model, s)) {
+      s.accepted = false;
+    }
+  }
+}
+
+}  // namespace convexcut::robust

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/mirrors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace convexcut::robust {
+namespace {
+
+constexpr std::size_t kMostCells = 1U << 18U;
+constexpr std::uint32_t kLargeSurfels = 40;  // of a wall
+constexpr float kBehindM = 0.3F;
+constexpr float kFarBehindM = 0.6F;  // nearer to the wall all is its own image
+constexpr float kAlong = 0.5F;       // |cos| of a surface's normal to the wall's
+constexpr float kSameM = 0.2F;
+constexpr float kSameNormal = 0.85F;
+constexpr std::uint32_t kLeastInformative = 6;
+constexpr float kLeastMatching = 0.6F;
+constexpr float kLeastFrame = 0.35F;
+constexpr std::int32_t kFrame = 2;  // cells
+
+template <class Visit>
+void for_each_around(const PlaneGrid& grid, std::uint32_t cell, std::int32_t reach,
+                     Visit&& visit) noexcept {
+  const auto columns = static_cast<std::uint32_t>(grid.columns);
+  const auto column = static_cast<std::int32_t>(cell % columns);
+  const auto row = static_cast<std::int32_t>(cell / columns);
+  for (std::int32_t r = row - reach; r <= row + reach; ++r) {
+    for (std::int32_t c = column - reach; c <= column + reach; ++c) {
+      if (grid.holds(c, r))
+        visit(static_cast<std::uint32_t>(r) * columns + static_cast<std::uint32_t>(c));
+    }
+  }
+}
+
+}  // namespace
+
+Mirrors::Mirrors(std::size_t max_surfels) {
+  sights_.resize(max_surfels);
+  unsorted_.reserve(max_surfels);
+  starts_.reserve(kMostCells + 1);
+  hole_.reserve(kMostCells);
+  visited_.reserve(kMostCells);
+}
+
+bool Mirrors::find(Model& model, const PlaneGrids& grids, const VoxelMap& map) noexcept {
+  bool any = false;
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    const Plane& plane = model.planes[k];
+    if (!plane.accepted || !plane.vertical || plane.surfels < kLargeSurfels) continue;
+    const PlaneGrid& grid = grids.grid(k);
+    collect_sights(model, grids, k);
+    visited_.assign(grid.cell_count(), 0);
+    for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
+      if (starts_[cell] == starts_[cell + 1] || visited_[cell] != 0) continue;
+      collect_hole(grid, cell);
+      if (!is_image(model, map, plane) || !is_framed(grids, grid)) continue;
+      any = true;
+      for (const std::uint32_t c : hole_) {
+        for (std::uint32_t i = starts_[c]; i < starts_[c + 1]; ++i) {
+          model.surfels[sights_[i].surfel].mirrored = true;
+        }
+      }
+    }
+  }
+  return any;
+}
+
+void Mirrors::collect_sights(const Model& model, const PlaneGrids& grids,
+                             std::size_t plane) noexcept {
+  const PlaneGrid& grid = grids.grid(plane);
+  unsorted_.clear();
+  starts_.assign(grid.cell_count() + 1, 0);
+  for (std::size_t i = 0; i < model.surfels.size(); ++i) {
+    const Surfel& surfel = model.surfels[i];
+    Vec3f at;
+    if (!surfel.is_evidence() ||
+        !passage(model.planes[plane], surfel.origin, surfel.mean, kBehindM, at)) {
+      continue;
+    }
+    const std::int32_t column = grid.column_of(at);
+    const std::int32_t row = grid.row_of(at);
+    if (!grid.holds(column, row)) continue;
+    const auto cell = static_cast<std::uint32_t>(row * grid.columns + column);
+    unsorted_.push_back({cell, static_cast<std::uint32_t>(i)});
+    ++starts_[cell + 1];
+  }
+  for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
+  // Each cell's start serves as its next free place, and is its end when all are placed.
+  for (const Sight& sight : unsorted_) sights_[starts_[sight.cell]++] = sight;
+  for (std::size_t c = starts_.size() - 1; c > 0; --c) starts_[c] = starts_[c - 1];
+  starts_[0] = 0;
+}
+
+void Mirrors::collect_hole(const PlaneGrid& grid, std::uint32_t seed) noexcept {
+  hole_.clear();
+  hole_.push_back(seed);
+  visited_[seed] = 1;
+  for (std::size_t next = 0; next < hole_.size(); ++next) {
+    for_each_around(grid, hole_[next], 1, [&](std::uint32_t cell) {
+      if (visited_[cell] != 0 || starts_[cell] == starts_[cell + 1]) return;
+      visited_[cell] = 1;
+      hole_.push_back(cell);
+    });
+  }
+}
+
+// Whether wall is seen around the hole.
+bool Mirrors::is_framed(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
+  constexpr std::uint8_t kInFrame = 2;
+  const auto columns = static_cast<std::uint32_t>(grid.columns);
+  std::uint32_t frame = 0;
+  std::uint32_t wall = 0;
+  for (const std::uint32_t in_hole : hole_) {
+    for_each_around(grid, in_hole, kFrame, [&](std::uint32_t cell) {
+      if (starts_[cell] != starts_[cell + 1] || (visited_[cell] & kInFrame) != 0) return;
+      visited_[cell] = static_cast<std::uint8_t>(visited_[cell] | kInFrame);
+      ++frame;
+      wall += grids.cell(grid, static_cast<std::int32_t>(cell % columns),
+                         static_cast<std::int32_t>(cell / columns))
+                          .seen > 0
+                  ? 1U
+                  : 0U;
+    });
+  }
+  return static_cast<float>(wall) > kLeastFrame * static_cast<float>(frame);
+}
+
+bool Mirrors::is_image(const Model& model, const VoxelMap& map, const Plane& plane) const noexcept {
+  std::uint32_t informative = 0;
+  std::uint32_t matching = 0;
+  for (const std::uint32_t cell : hole_) {
+    for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
+      const Surfel& surfel = model.surfels[sights_[i].surfel];
+      const float height = plane.height_of(surfel.mean);
+      const float along = plane.normal.dot(surfel.direction);
+      if (surfel.shape != Shape::plane || std::abs(along) < kAlong || height > -kFarBehindM) {
+        continue;
+      }
+      ++informative;
+      const Vec3f image = surfel.mean - 2.0F * height * plane.normal;
+      const Vec3f direction = surfel.direction - 2.0F * along * plane.normal;
+      bool found = false;
+      for_each_neighbour(map, key_of(place_of(image)), [&](std::size_t k, const Lattice&) {
+        const Surfel& other = model.surfels[k];
+        found = found || (other.supported && (other.mean - image).norm() < kSameM &&
+                          (other.shape != Shape::plane ||
+                           std::abs(other.direction.dot(direction)) > kSameNormal));
+      });
+      matching += found ? 1U : 0U;
+    }
+  }
+  return informative >= kLeastInformative &&
+         static_cast<float>(matching) > kLeastMatching * static_cast<float>(informative);
+}
+
+}  // namespace convexcut::robust

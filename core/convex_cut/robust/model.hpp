@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is known of the surroundings: small pieces of surface, the planes through them, and which of
+// those bound the free space. One frame for all: z up, metres, the first revolution's lidar as
+// origin.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/convex_cut/robust/voxel_map.hpp"
+#include "core/geometry.hpp"
+
+namespace convexcut::robust {
+
+inline constexpr std::int32_t kNoPlane = -1;
+
+// A voxel of the window as a piece of surface; as many and in the same order as the map's voxels.
+struct Surfel {
+  Vec3f mean = Vec3f::Zero();
+  Vec3f direction = Vec3f::Zero();  // see Shape
+  Vec3f origin = Vec3f::Zero();     // where it was seen from
+  std::int32_t points = 0;
+  std::int32_t plane = kNoPlane;  // that it lies on
+  Shape shape = Shape::other;
+  bool mirrored = false;  // an image behind a mirror, not a surface
+  bool supported = false;
+
+  // Whether its ray tells of free space.
+  [[nodiscard]] bool is_evidence() const noexcept { return supported && !mirrored; }
+};
+
+// normal · p + offset = 0; the normal points to the lidar.
+struct Plane {
+  Vec3f normal = Vec3f::UnitZ();
+  float offset = 0.0F;
+  std::uint32_t surfels = 0;
+  float spread2 = 0.0F;   // m², of its points about it
+  float face_m = 0.0F;    // where most of it lies, over itself
+  bool vertical = false;  // a wall or the front of something; else a floor, a ceiling, a slope
+  bool accepted = false;  // some of its cells are structure
+
+  [[nodiscard]] float height_of(const Vec3f& p) const noexcept { return normal.dot(p) + offset; }
+};
+
+// A run of columns of a vertical plane.
+struct WallSegment {
+  std::size_t plane = 0;
+  std::int32_t first = 0, end = 0;      // columns of the plane's grid
+  float begin_m = 0.0F, end_m = 0.0F;   // along the plane
+  float bottom_m = 0.0F, top_m = 0.0F;  // z of what was seen of it
+  std::uint32_t closed = 0, open = 0;   // cells seen in columns that nothing, something passes
+  bool accepted = false;
+  bool narrow = false;     // may be a pillar or a person
+  bool furniture = false;  // a wall is close behind
+};
+
+struct Model {
+  std::vector<Surfel> surfels;
+  std::vector<Plane> planes;
+  std::vector<WallSegment> segments;
+  float noise2 = 4e-4F;  // m², of the sensor, as the largest planes show it
+  float floor_z = -std::numeric_limits<float>::infinity();   // none known
+  float ceiling_z = std::numeric_limits<float>::infinity();  // none known
+};
+
+}  // namespace convexcut::robust

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sums over the points of a voxel: their number, mean and covariance. Whole numbers (millimetres
+// from the voxel's centre), so that what was added can be taken away again without a trace.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/geometry.hpp"
+
+namespace convexcut::robust {
+
+using Mat3f = Eigen::Matrix3f;
+
+struct Moments {
+  std::int32_t count = 0;
+  std::array<std::int32_t, 3> sum_mm{};
+  std::array<std::int32_t, 6> products_mm2{};  // xx xy xz yy yz zz
+
+  // |offset| at most 0.2 m: 50,000 points of a voxel do not overflow.
+  void add(const Vec3f& offset_m) noexcept {
+    const std::int32_t x = millimetres(offset_m.x());
+    const std::int32_t y = millimetres(offset_m.y());
+    const std::int32_t z = millimetres(offset_m.z());
+    ++count;
+    sum_mm[0] += x;
+    sum_mm[1] += y;
+    sum_mm[2] += z;
+    const std::array<std::int32_t, 6> products{x * x, x * y, x * z, y * y, y * z, z * z};
+    for (std::size_t i = 0; i < 6; ++i) products_mm2[i] += products[i];
+  }
+  void add(const Moments& other, std::int32_t sign) noexcept {
+    count += sign * other.count;
+    for (std::size_t i = 0; i < 3; ++i) sum_mm[i] += sign * other.sum_mm[i];
+    for (std::size_t i = 0; i < 6; ++i) products_mm2[i] += sign * other.products_mm2[i];
+  }
+  // From the voxel's centre; count > 0.
+  [[nodiscard]] Vec3f mean_m() const noexcept {
+    return Vec3f(static_cast<float>(sum_mm[0]), static_cast<float>(sum_mm[1]),
+                 static_cast<float>(sum_mm[2])) *
+           (1e-3F / static_cast<float>(count));
+  }
+
+ private:
+  [[nodiscard]] static std::int32_t millimetres(float metres) noexcept {
+    return static_cast<std::int32_t>(std::lrint(metres * 1e3F));
+  }
+};
+
+// Sums over several voxels, about one of their centres.
+class Spread {
+ public:
+  // shift_m: from the common centre to the moments' own.
+  void add(const Moments& m, const Vec3f& shift_m) noexcept {
+    const auto n = static_cast<float>(m.count);
+    const Vec3f s(static_cast<float>(m.sum_mm[0]), static_cast<float>(m.sum_mm[1]),
+                  static_cast<float>(m.sum_mm[2]));
+    const Vec3f sum = s * 1e-3F;
+    count_ += n;
+    sum_ += sum + n * shift_m;
+    const auto product = [&m](std::size_t i) {
+      return static_cast<float>(m.products_mm2[i]) * 1e-6F;
+    };
+    Mat3f p;
+    p << product(0), product(1), product(2), product(1), product(3), product(4), product(2),
+        product(4), product(5);
+    products_ += p + shift_m * sum.transpose() + sum * shift_m.transpose() +
+                 n * shift_m * shift_m.transpose();
+  }
+  [[nodiscard]] float count() const noexcept { return count_; }
+  // m²; count() > 0.
+  [[nodiscard]] Mat3f covariance() const noexcept {
+    const Vec3f mean = sum_ / count_;
+    return products_ / count_ - mean * mean.transpose();
+  }
+
+ private:
+  float count_ = 0.0F;
+  Vec3f sum_ = Vec3f::Zero();
+  Mat3f products_ = Mat3f::Zero();
+};
+
+}  // namespace convexcut::robust

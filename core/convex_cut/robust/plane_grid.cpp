@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/plane_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/convex_cut/robust/plane_search.hpp"
+
+namespace convexcut::robust {
+namespace {
+
+constexpr std::size_t kMostCells = 1U << 18U;
+constexpr std::size_t kMostExtents = 1U << 14U;
+constexpr std::int32_t kMargin = 2;     // cells around what was seen
+constexpr std::int32_t kMarginUp = 12;  // of vertical planes: from floor to ceiling
+constexpr float kBehindM = 0.15F;       // a ray that ends so far behind a plane passed it
+constexpr float kEdgeM = 0.02F;
+constexpr float kInFrontM = 0.05F;  // a ray that starts nearer to a plane says nothing of it
+
+struct Bounds {
+  std::int32_t low_along = std::numeric_limits<std::int32_t>::max();
+  std::int32_t high_along = std::numeric_limits<std::int32_t>::min();
+  std::int32_t low_up = std::numeric_limits<std::int32_t>::max();
+  std::int32_t high_up = std::numeric_limits<std::int32_t>::min();
+};
+
+[[nodiscard]] PlaneGrid axes_of(const Plane& plane) noexcept {
+  PlaneGrid grid;
+  const Vec3f across = plane.vertical ? Vec3f::UnitZ() : Vec3f::UnitY();
+  grid.along = across.cross(plane.normal).normalized();
+  grid.up = plane.normal.cross(grid.along);
+  return grid;
+}
+
+[[nodiscard]] bool fits(const PlaneGrid& grid, std::size_t cells, std::size_t extents) noexcept {
+  return grid.columns > 0 && static_cast<std::size_t>(grid.columns) + extents <= kMostExtents &&
+         grid.cell_count() + cells <= kMostCells;
+}
+
+}  // namespace
+
+bool passage(const Plane& plane, const Vec3f& origin, const Vec3f& end, float behind_m,
+             Vec3f& at) noexcept {
+  const float height_of_end = plane.height_of(end);
+  if (height_of_end > -behind_m) return false;
+  const float height = plane.height_of(origin);
+  if (height < kInFrontM) return false;
+  at = origin + height / (height - height_of_end) * (end - origin);
+  return true;
+}
+
+PlaneGrids::PlaneGrids() {
+  grids_.reserve(PlaneSearch::kMostPlanes);
+  cells_.reserve(kMostCells);
+  extents_.reserve(kMostExtents);
+}
+
+void PlaneGrids::build(Model& model) noexcept {
+  grids_.clear();
+  cells_.clear();
+  extents_.clear();
+  lay_out(model);
+  mark_seen(model);
+  widen_extents();
+  mark_passed(model);
+}
+
+void PlaneGrids::lay_out(Model& model) noexcept {
+  std::array<Bounds, PlaneSearch::kMostPlanes> bounds;
+  for (const Plane& plane : model.planes) grids_.push_back(axes_of(plane));
+  for (const Surfel& surfel : model.surfels) {
+    if (surfel.plane == kNoPlane) continue;
+    const auto k = static_cast<std::size_t>(surfel.plane);
+    Bounds& b = bounds[k];
+    const std::int32_t along = grids_[k].column_of(surfel.mean);
+    const std::int32_t up = grids_[k].row_of(surfel.mean);
+    b.low_along = std::min(b.low_along, along);
+    b.high_along = std::max(b.high_along, along);
+    b.low_up = std::min(b.low_up, up);
+    b.high_up = std::max(b.high_up, up);
+  }
+  for (std::size_t k = 0; k < grids_.size(); ++k) {
+    PlaneGrid& grid = grids_[k];
+    const Bounds& b = bounds[k];
+    if (b.low_along > b.high_along) continue;
+    const std::int32_t margin_up = model.planes[k].vertical ? kMarginUp : kMargin;
+    grid.first_along = b.low_along - kMargin;
+    grid.first_up = b.low_up - margin_up;
+    grid.columns = b.high_along - b.low_along + 1 + 2 * kMargin;
+    grid.rows = b.high_up - b.low_up + 1 + 2 * margin_up;
+    if (!fits(grid, cells_.size(), extents_.size())) {
+      grid.columns = grid.rows = 0;
+      continue;
+    }
+    grid.first_cell = cells_.size();
+    grid.first_extent = extents_.size();
+    cells_.resize(cells_.size() + grid.cell_count());
+    extents_.resize(extents_.size() + static_cast<std::size_t>(grid.columns));
+  }
+}
+
+void PlaneGrids::mark_seen(const Model& model) noexcept {
+  for (const Surfel& surfel : model.surfels) {
+    if (surfel.plane == kNoPlane) continue;
+    const PlaneGrid& g = grids_[static_cast<std::size_t>(surfel.plane)];
+    const std::int32_t column = g.column_of(surfel.mean);
+    const std::int32_t row = g.row_of(surfel.mean);
+    if (!g.holds(column, row)) continue;
+    Cell& seen = cell(g, column, row);
+    ++seen.seen;
+    seen.points += surfel.points;
+    seen.height_sum_m +=
+        static_cast<float>(surfel.points) *
+        model.planes[static_cast<std::size_t>(surfel.plane)].height_of(surfel.mean);
+    Extent& extent = extents_[g.first_extent + static_cast<std::size_t>(column)];
+    const float along = g.along.dot(surfel.mean);
+    extent.low_m = std::min(extent.low_m, along);
+    extent.high_m = std::max(extent.high_m, along);
+  }
+}
+
+// Where the neighbouring column was seen as well, the surface reaches the border between them.
+void PlaneGrids::widen_extents() noexcept {
+  for (const PlaneGrid& g : grids_) {
+    for (std::int32_t column = 0; column < g.columns; ++column) {
+      Extent& here = extents_[g.first_extent + static_cast<std::size_t>(column)];
+      if (here.empty()) continue;
+      const float border = static_cast<float>(g.first_along + column) * kCellM;
+      if (column > 0 && !extent(g, column - 1).empty()) here.low_m = border;
+      if (column + 1 < g.columns && !extent(g, column + 1).empty()) here.high_m = border + kCellM;
+    }
+  }
+}
+
+bool PlaneGrids::passes(const PlaneGrid& g, bool vertical, const Vec3f& p) const noexcept {
+  if (!vertical) return true;
+  const Extent& e = extent(g, g.column_of(p));
+  if (e.empty()) return true;
+  // Beside what was seen in the column is not above it. Neighbours that touch leave no gap.
+  const float along = g.along.dot(p);
+  const float border = std::floor(along / kCellM) * kCellM;
+  const float low = e.low_m > border ? e.low_m + kEdgeM : border;
+  const float high = e.high_m < border + kCellM ? e.high_m - kEdgeM : border + kCellM;
+  return along >= low && along <= high;
+}
+
+void PlaneGrids::mark_passed(const Model& model) noexcept {
+  for (const Surfel& surfel : model.surfels) {
+    if (!surfel.is_evidence()) continue;
+    for (std::size_t k = 0; k < grids_.size(); ++k) {
+      const Plane& plane = model.planes[k];
+      const PlaneGrid& g = grids_[k];
+      Vec3f at;
+      if (!passage(plane, surfel.origin, surfel.mean, kBehindM, at)) continue;
+      const std::int32_t column = g.column_of(at);
+      const std::int32_t row = g.row_of(at);
+      if (!g.holds(column, row) || !passes(g, plane.vertical, at)) continue;
+      std::uint16_t& passed = cell(g, column, row).passed;
+      if (passed < std::numeric_limits<std::uint16_t>::max()) ++passed;
+    }
+  }
+}
+
+float PlaneGrids::layer_near(std::size_t plane, const Vec3f& p) const noexcept {
+  const PlaneGrid& g = grids_[plane];
+  const std::int32_t column = g.column_of(p);
+  const std::int32_t row = g.row_of(p);
+  if (g.holds(column, row) && cell(g, column, row).layer_m != 0.0F) {
+    return cell(g, column, row).layer_m;
+  }
+  float layer = 0.0F;
+  for (std::int32_t r = std::max(row - 1, 0); r <= std::min(row + 1, g.rows - 1); ++r) {
+    for (std::int32_t c = std::max(column - 1, 0); c <= std::min(column + 1, g.columns - 1); ++c) {
+      const float here = cell(g, c, r).layer_m;
+      if (std::abs(here) > std::abs(layer)) layer = here;
+    }
+  }
+  return layer;
+}
+
+bool PlaneGrids::is_structure(std::size_t plane, const Vec3f& p,
+                              std::int32_t around) const noexcept {
+  const PlaneGrid& g = grids_[plane];
+  const std::int32_t column = g.column_of(p);
+  const std::int32_t row = g.row_of(p);
+  for (std::int32_t r = std::max(row - around, 0); r <= std::min(row + around, g.rows - 1); ++r) {
+    for (std::int32_t c = std::max(column - around, 0);
+         c <= std::min(column + around, g.columns - 1); ++c) {
+      if (cell(g, c, r).structure) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace convexcut::robust

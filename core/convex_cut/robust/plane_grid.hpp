@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Each plane as a grid of cells: where it was seen, and where something farther away was seen
+// through it. A surface that bounds the free space is not passed by any ray, nor do rays pass
+// beside it where structure would go on: above a wall's part, around a floor's.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/convex_cut/robust/model.hpp"
+
+namespace convexcut::robust {
+
+inline constexpr float kCellM = 0.25F;
+
+struct Cell {
+  std::uint16_t seen = 0;     // surfels of the plane
+  std::uint16_t passed = 0;   // rays that end well behind the plane
+  std::int16_t part = -1;     // of a flat plane: connected cells
+  std::int32_t points = 0;    // of these surfels
+  float height_sum_m = 0.0F;  // of the points, over the plane
+  float layer_m = 0.0F;       // how far the fixture that covers the cell is off the wall; 0: none
+  bool structure = false;
+  bool visited = false;
+};
+
+// A plane's axes and its rectangle of cells. Vertical planes: `along` is horizontal, `up` is
+// upwards; a column is what stands above one step along.
+struct PlaneGrid {
+  Vec3f along = Vec3f::UnitX();
+  Vec3f up = Vec3f::UnitY();
+  std::int32_t first_along = 0, first_up = 0;  // in cells from the frame's origin
+  std::int32_t columns = 0, rows = 0;
+  std::size_t first_cell = 0;
+  std::size_t first_extent = 0;
+
+  [[nodiscard]] std::int32_t column_of(const Vec3f& p) const noexcept {
+    return static_cast<std::int32_t>(std::floor(along.dot(p) / kCellM)) - first_along;
+  }
+  [[nodiscard]] std::int32_t row_of(const Vec3f& p) const noexcept {
+    return static_cast<std::int32_t>(std::floor(up.dot(p) / kCellM)) - first_up;
+  }
+  [[nodiscard]] bool holds(std::int32_t column, std::int32_t row) const noexcept {
+    return column >= 0 && row >= 0 && column < columns && row < rows;
+  }
+  [[nodiscard]] std::size_t cell_count() const noexcept {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+  // Of the cell, on the plane.
+  [[nodiscard]] Vec3f centre(const Plane& plane, std::int32_t column,
+                             std::int32_t row) const noexcept {
+    const auto at = [](std::int32_t i) { return (static_cast<float>(i) + 0.5F) * kCellM; };
+    return along * at(first_along + column) + up * at(first_up + row) - plane.normal * plane.offset;
+  }
+};
+
+// What was seen in a column of a vertical plane, along it. Empty: low > high.
+struct Extent {
+  float low_m = 1e9F;
+  float high_m = -1e9F;
+  [[nodiscard]] bool empty() const noexcept { return low_m > high_m; }
+};
+
+class PlaneGrids {
+ public:
+  PlaneGrids();
+
+  // For the model's planes; a plane that no room is left for loses its surfels.
+  void build(Model& model) noexcept;
+
+  [[nodiscard]] const PlaneGrid& grid(std::size_t plane) const noexcept { return grids_[plane]; }
+  [[nodiscard]] Cell& cell(const PlaneGrid& grid, std::int32_t column, std::int32_t row) noexcept {
+    return cells_[index(grid, column, row)];
+  }
+  [[nodiscard]] const Cell& cell(const PlaneGrid& grid, std::int32_t column,
+                                 std::int32_t row) const noexcept {
+    return cells_[index(grid, column, row)];
+  }
+  [[nodiscard]] const Extent& extent(const PlaneGrid& grid, std::int32_t column) const noexcept {
+    return extents_[grid.first_extent + static_cast<std::size_t>(column)];
+  }
+  // Whether the cell at p, or one within `around` of it, is structure.
+  [[nodiscard]] bool is_structure(std::size_t plane, const Vec3f& p,
+                                  std::int32_t around) const noexcept;
+  // The layer of the cell at p, or the greatest of those beside it; 0: none.
+  [[nodiscard]] float layer_near(std::size_t plane, const Vec3f& p) const noexcept;
+
+ private:
+  [[nodiscard]] static std::size_t index(const PlaneGrid& grid, std::int32_t column,
+                                         std::int32_t row) noexcept {
+    return grid.first_cell +
+           static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+           static_cast<std::size_t>(column);
+  }
+  void lay_out(Model& model) noexcept;
+  void mark_seen(const Model& model) noexcept;
+  void widen_extents() noexcept;
+  void mark_passed(const Model& model) noexcept;
+  [[nodiscard]] bool passes(const PlaneGrid& grid, bool vertical, const Vec3f& p) const noexcept;
+
+  std::vector<PlaneGrid> grids_;
+  std::vector<Cell> cells_;
+  std::vector<Extent> extents_;
+};
+
+// Where the ray from `origin` to `end` meets the plane. False: it does not pass to at least
+// `behind_m` behind it.
+[[nodiscard]] bool passage(const Plane& plane, const Vec3f& origin, const Vec3f& end,
+                           float behind_m, Vec3f& at) noexcept;
+
+}  // namespace convexcut::robust

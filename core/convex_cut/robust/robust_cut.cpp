@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/robust_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/convex_cut/cloud_check.hpp"
+#include "core/convex_cut/robust/recentring.hpp"
+#include "core/convex_cut/robust/shape.hpp"
+
+namespace convexcut {
+namespace {
+
+using robust::Plane;
+using robust::Surfel;
+using robust::Voxel;
+using robust::VoxelMap;
+
+constexpr std::size_t kMostPoints = std::size_t{1} << 31;
+constexpr std::size_t kMostVoxels = 24'576;         // of a revolution
+constexpr std::size_t kMostWindowVoxels = 131'072;  // of all
+constexpr std::size_t kMostSegments = 2'048;
+
+constexpr float kUnknownMotionM = 0.10F;  // in a revolution, one sigma
+constexpr float kKnownMotionM = 0.02F;
+constexpr float kStillM = 0.02F;  // a step below this is none
+constexpr float kLeastOfLastShare = 0.5F;
+constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
+constexpr std::int32_t kFlatReach = 6;     // cells: between two rings on a far floor
+constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
+
+[[nodiscard]] const RobustParameters& checked(const RobustParameters& parameters) {
+  if (!is_valid(parameters)) throw std::invalid_argument("robust parameters out of range");
+  return parameters;
+}
+
+[[nodiscard]] std::size_t checked(std::size_t max_points) {
+  if (max_points > kMostPoints) throw std::invalid_argument("Convex Cut: too many points");
+  return max_points;
+}
+
+// m², of a voxel's points across a plane, about their mean.
+[[nodiscard]] float spread2_across(const Voxel& voxel, const Plane& plane) noexcept {
+  robust::Spread spread;
+  spread.add(voxel.moments, Vec3f::Zero());
+  return plane.normal.dot(spread.covariance() * plane.normal);
+}
+
+// Of each plane; and what the sensor's noise is, by the largest ones.
+void measure_spread(robust::Model& model, std::span<const Voxel> voxels) noexcept {
+  std::array<double, robust::PlaneSearch::kMostPlanes> points{};
+  std::array<double, robust::PlaneSearch::kMostPlanes> squares{};
+  for (std::size_t i = 0; i < model.surfels.size(); ++i) {
+    const Surfel& surfel = model.surfels[i];
+    if (surfel.plane == robust::kNoPlane) continue;
+    const auto k = static_cast<std::size_t>(surfel.plane);
+    const Plane& plane = model.planes[k];
+    const float height = plane.height_of(surfel.mean);
+    points.at(k) += surfel.points;
+    squares.at(k) += static_cast<double>(surfel.points) *
+                     static_cast<double>(spread2_across(voxels[i], plane) + height * height);
+  }
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    model.planes[k].spread2 = static_cast<float>(squares.at(k) / std::max(points.at(k), 1.0));
+  }
+  std::array<const Plane*, kLargestPlanes> largest{};
+  for (const Plane& plane : model.planes) {
+    const Plane* candidate = &plane;
+    for (const Plane*& at : largest) {
+      if (at == nullptr || at->surfels < candidate->surfels) std::swap(at, candidate);
+      if (candidate == nullptr) break;
+    }
+  }
+  // The noise is along the beam: surfaces that are met at a grazing angle show less of it, and
+  // those with things on them more. So neither the least nor the greatest.
+  std::array<float, kLargestPlanes> spreads{};
+  spreads.fill(std::numeric_limits<float>::max());
+  std::size_t count = 0;
+  for (const Plane* plane : largest) {
+    if (plane != nullptr) spreads.at(count++) = plane->spread2;
+  }
+  std::sort(spreads.begin(), spreads.end());
+  model.noise2 = count > 0 ? spreads.at(count / 2) : robust::Model{}.noise2;
+}
+
+}  // namespace
+
+RobustCut::RobustCut(const RobustParameters& parameters, std::size_t max_points)
+    : parameters_(checked(parameters)),
+      max_points_(checked(max_points)),
+      revolution_(std::min(max_points, kMostVoxels)),
+      window_(parameters.window, std::min(max_points, kMostVoxels), kMostWindowVoxels),
+      plane_search_(kMostWindowVoxels),
+      mirrors_(kMostWindowVoxels),
+      curved_(kMostWindowVoxels) {
+  voxel_of_point_.resize(max_points);
+  model_.surfels.reserve(kMostWindowVoxels);
+  model_.planes.reserve(robust::PlaneSearch::kMostPlanes);
+  model_.segments.reserve(kMostSegments);
+  centred_planes_.reserve(robust::PlaneSearch::kMostPlanes);
+  near_.reserve(std::min(max_points, kMostVoxels));
+}
+
+void RobustCut::forget() noexcept {
+  window_.clear();
+  model_.surfels.clear();
+  model_.planes.clear();
+  model_.segments.clear();
+  pose_ = {};
+  given_position_m_.reset();
+  structure_share_ = 0.0F;
+}
+
+CutStatus RobustCut::label(const CloudView& cloud, std::span<Label> labels,
+                           const std::optional<Vec3>& position_m, std::uint32_t window) noexcept {
+  if (cloud.size() > max_points()) return CutStatus::too_many_points;
+  const CloudCheck check = check_cloud(cloud, labels.size());
+  if (check.status != CutStatus::ok) return check.status;
+
+  place(cloud, position_m);
+  fill_voxels(cloud);
+  window_.add(revolution_, pose_.position, window);
+  analyse();
+  take_near();
+
+  std::size_t structure = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(cloud.size());
+    const Vec3f p = pose_.apply(robust::point_of(cloud, i), share);
+    const bool is = is_structure(p, voxel_of_point_[i]);
+    labels[i] = is ? Label::structure : Label::other;
+    structure += is ? 1U : 0U;
+  }
+  structure_share_ =
+      static_cast<float>(structure) / static_cast<float>(std::max<std::size_t>(cloud.size(), 1));
+  return CutStatus::ok;
+}
+
+// As the last revolution went on; a step that is given is believed.
+robust::RigPose RobustCut::predicted(const std::optional<Vec3>& position_m) const noexcept {
+  robust::RigPose guess = pose_;
+  if (position_m && given_position_m_) {
+    guess.step = pose_.r_window_from_level * (*position_m - *given_position_m_).cast<float>();
+  }
+  if (guess.step.norm() < kStillM) guess.step.setZero();
+  guess.position += guess.step;
+  return guess;
+}
+
+void RobustCut::place(const CloudView& cloud, const std::optional<Vec3>& position_m) noexcept {
+  const robust::RigPose guess = predicted(position_m);
+  const bool known = position_m.has_value() && given_position_m_.has_value();
+  std::optional<robust::RigPose> found;
+  if (window_.revolutions() > 0 && !parameters_.align) found = guess;
+  if (window_.revolutions() > 0 && parameters_.align) {
+    found = robust::aligned(cloud, model_, grids_, guess, known ? kKnownMotionM : kUnknownMotionM,
+                            kLeastOfLastShare * structure_share_);
+    if (found && !known) found->step = found->position - pose_.position;
+  }
+  if (found) {
+    pose_ = *found;
+  } else {
+    forget();
+    if (parameters_.upright) {
+      fill_voxels(cloud);
+      window_.add(revolution_, pose_.position, 1);
+      pose_.r_window_from_level = robust::upright_correction(window_.map());
+      window_.clear();
+    }
+  }
+  given_position_m_ = position_m;
+}
+
+void RobustCut::fill_voxels(const CloudView& cloud) noexcept {
+  revolution_.clear();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(cloud.size());
+    const Vec3f p = pose_.apply(robust::point_of(cloud, i), share);
+    const robust::Lattice place = robust::place_of(p);
+    const std::int32_t voxel = revolution_.find_or_add(robust::key_of(place));
+    voxel_of_point_[i] = voxel;
+    if (voxel == VoxelMap::kNone) continue;
+    revolution_.voxels()[static_cast<std::size_t>(voxel)].moments.add(p - robust::centre_of(place));
+  }
+}
+
+void RobustCut::analyse() noexcept {
+  take_surfels();
+  find_structure();
+  if (parameters_.mirrors && mirrors_.find(model_, grids_, window_.map())) find_structure();
+  is_curved_ = {};
+  if (parameters_.curved) {
+    is_curved_ = curved_.find(model_, grids_, window_.map(), window_.origin());
+  }
+  recentre();
+}
+
+void RobustCut::take_surfels() noexcept {
+  model_.surfels.clear();
+  for (const Voxel& voxel : window_.map().voxels()) {
+    Surfel surfel;
+    surfel.mean = voxel.mean();
+    surfel.direction = voxel.direction;
+    surfel.origin = window_.origin_of(voxel);
+    surfel.points = voxel.moments.count;
+    surfel.shape = voxel.shape;
+    surfel.supported = voxel.moments.count >= robust::kSupport;
+    model_.surfels.push_back(surfel);
+  }
+}
+
+void RobustCut::find_structure() noexcept {
+  plane_search_.run(model_, window_.origin());
+  measure_spread(model_, window_.map().voxels());
+  grids_.build(model_);
+  flat_surfaces_.find(model_, grids_, window_.origin(), parameters_.free_space);
+  walls_.find(model_, grids_, parameters_);
+  if (parameters_.fixtures) fixtures_.find(model_, grids_);
+}
+
+void RobustCut::recentre() noexcept {
+  centred_planes_.clear();
+  for (std::size_t k = 0; k < model_.planes.size(); ++k) {
+    const Plane& plane = model_.planes[k];
+    centred_planes_.push_back(parameters_.recentre && plane.accepted
+                                  ? robust::recentred(model_, grids_, k, revolution_)
+                                  : plane);
+  }
+}
+
+void RobustCut::take_near() noexcept {
+  near_.clear();
+  const float reach_m = parameters_.band_m + kHalfDiagonal * robust::kVoxelM;
+  for (const Voxel& voxel : revolution_.voxels()) {
+    Near near;
+    const auto merged = static_cast<std::size_t>(window_.map().find(voxel.key));
+    const bool known = merged < model_.surfels.size();
+    if (known && model_.surfels[merged].mirrored) {
+      near_.push_back(near);
+      continue;
+    }
+    near.curved = known && !is_curved_.empty() && is_curved_[merged] != 0;
+    const Vec3f centre = robust::centre_of(robust::place_of(voxel.key));
+    for (std::size_t k = 0; k < centred_planes_.size() && near.count < Near::kMost; ++k) {
+      const Plane& plane = centred_planes_[k];
+      if (!plane.accepted || std::abs(plane.height_of(centre)) > reach_m) continue;
+      if (known && is_fixture(model_.surfels[merged], k)) continue;
+      near.planes.at(near.count++) = static_cast<std::int8_t>(k);
+    }
+    near_.push_back(near);
+  }
+}
+
+// On a layer's cell or beside one, and nearer to the layer than to the wall.
+bool RobustCut::is_fixture(const Surfel& surfel, std::size_t plane) const noexcept {
+  const Plane& wall = model_.planes[plane];
+  if (!parameters_.fixtures || !wall.vertical) return false;
+  const float off_m = wall.height_of(surfel.mean) - wall.face_m;
+  const float layer_m = grids_.layer_near(plane, surfel.mean);
+  return layer_m != 0.0F && off_m * layer_m > 0.0F && std::abs(off_m) > std::abs(layer_m) / 2;
+}
+
+bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept {
+  if (voxel == VoxelMap::kNone) return false;
+  const Near& near = near_[static_cast<std::size_t>(voxel)];
+  for (std::size_t i = 0; i < near.count; ++i) {
+    const auto k = static_cast<std::size_t>(near.planes.at(i));
+    if (std::abs(centred_planes_[k].height_of(p)) <= parameters_.band_m &&
+        grids_.is_structure(k, p, centred_planes_[k].vertical ? 1 : kFlatReach)) {
+      return true;
+    }
+  }
+  return near.curved;
+}
+
+}  // namespace convexcut

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The second method: what bounds the free space seen from the sensor is structure, made dependable.
+// It looks at all directions at once instead of one slice, at several revolutions, and asks of each
+// surface whether something is seen behind it where structure would have stood. See
+// docs/design/robust.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/cloud.hpp"
+#include "core/convex_cut/parameters.hpp"
+#include "core/convex_cut/robust/curved.hpp"
+#include "core/convex_cut/robust/fixtures.hpp"
+#include "core/convex_cut/robust/flat_surfaces.hpp"
+#include "core/convex_cut/robust/mirrors.hpp"
+#include "core/convex_cut/robust/model.hpp"
+#include "core/convex_cut/robust/parameters.hpp"
+#include "core/convex_cut/robust/plane_grid.hpp"
+#include "core/convex_cut/robust/plane_search.hpp"
+#include "core/convex_cut/robust/pose.hpp"
+#include "core/convex_cut/robust/voxel_map.hpp"
+#include "core/convex_cut/robust/walls.hpp"
+#include "core/convex_cut/robust/window.hpp"
+#include "core/geometry.hpp"
+#include "core/workspace.hpp"
+
+namespace convexcut {
+
+class RobustCut {
+ public:
+  // Allocates everything it will ever need: 4 bytes a point and about 60 MB. Throws
+  // std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹, and
+  // std::bad_alloc.
+  RobustCut(const RobustParameters& parameters, std::size_t max_points);
+
+  // Labels every point of a revolution in frame level, and remembers it for those that follow. The
+  // points are expected in firing order; any order gives labels, at most less precise ones for a
+  // moving rig. position_m: the lidar in any fixed frame with level's axes, where it is known;
+  // without, a motion is found from the planes as far as they hold it. window: at most this many
+  // revolutions decide. One thread at a time; the labels depend on the calls since construction or
+  // forget() alone. On any answer but `ok` no label has been written and nothing is remembered. RT:
+  // no allocation, no lock, no system call.
+  [[nodiscard]] CutStatus label(const CloudView& cloud, std::span<Label> labels,
+                                const std::optional<Vec3>& position_m = std::nullopt,
+                                std::uint32_t window = kMaxRobustWindow) noexcept;
+
+  // As if newly made: after a gap in time, or a step of the clock.
+  void forget() noexcept;
+
+  [[nodiscard]] const RobustParameters& parameters() const noexcept { return parameters_; }
+  [[nodiscard]] std::size_t max_points() const noexcept { return max_points_; }
+  // Of the revolution labelled last.
+  [[nodiscard]] const robust::Model& model() const noexcept { return model_; }
+
+ private:
+  // The accepted planes near a voxel.
+  struct Near {
+    static constexpr std::size_t kMost = 4;
+    std::array<std::int8_t, kMost> planes{};
+    std::uint8_t count = 0;
+    bool curved = false;
+  };
+
+  [[nodiscard]] robust::RigPose predicted(const std::optional<Vec3>& position_m) const noexcept;
+  void place(const CloudView& cloud, const std::optional<Vec3>& position_m) noexcept;
+  void fill_voxels(const CloudView& cloud) noexcept;
+  void analyse() noexcept;
+  void take_surfels() noexcept;
+  void find_structure() noexcept;
+  void recentre() noexcept;
+  void take_near() noexcept;
+  [[nodiscard]] bool is_fixture(const robust::Surfel& surfel, std::size_t plane) const noexcept;
+  [[nodiscard]] bool is_structure(const Vec3f& p, std::int32_t voxel) const noexcept;
+
+  RobustParameters parameters_;
+  std::size_t max_points_;
+  robust::VoxelMap revolution_;
+  Workspace<std::int32_t> voxel_of_point_;
+  robust::Window window_;
+  robust::Model model_;
+  robust::PlaneSearch plane_search_;
+  robust::PlaneGrids grids_;
+  robust::FlatSurfaces flat_surfaces_;
+  robust::Walls walls_;
+  robust::Fixtures fixtures_;
+  robust::Mirrors mirrors_;
+  robust::Curved curved_;
+  std::span<const std::uint8_t> is_curved_;    // by surfel
+  std::vector<robust::Plane> centred_planes_;  // as the revolution at hand shows them
+  std::vector<Near> near_;                     // by voxel of the revolution
+  robust::RigPose pose_;
+  std::optional<Vec3> given_position_m_;  // of the last revolution
+  float structure_share_ = 0.0F;          // of the last revolution's points
+};
+
+}  // namespace convexcut

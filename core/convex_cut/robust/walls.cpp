@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/convex_cut/robust/furniture.hpp"
+
+namespace convexcut::robust {
+namespace {
+
+constexpr std::size_t kMostColumns = 1U << 14U;
+constexpr std::size_t kMostSegments = 2'048;
+constexpr std::int32_t kGap = 2;      // columns within a run that may be missing
+constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
+constexpr float kToCeilingM = 0.35F;
+constexpr float kMarginM = 0.2F;  // to floor and ceiling
+constexpr std::uint32_t kLeastCells = 4;
+constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
+
+}  // namespace
+
+Walls::Walls() { columns_.reserve(kMostColumns); }
+
+void Walls::find(Model& model, PlaneGrids& grids, const RobustParameters& parameters) noexcept {
+  model.segments.clear();
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    if (!model.planes[k].vertical) continue;
+    take_columns(model, grids, k);
+    split(model, grids, k, parameters.free_space);
+  }
+  if (parameters.furniture) reject_furniture(model);
+  for (const WallSegment& segment : model.segments) {
+    if (!segment.accepted) continue;
+    model.planes[segment.plane].accepted = true;
+    const PlaneGrid& grid = grids.grid(segment.plane);
+    for (std::int32_t column = segment.first; column < segment.end; ++column) {
+      for (std::int32_t row = 0; row < grid.rows; ++row) {
+        Cell& cell = grids.cell(grid, column, row);
+        if (cell.seen > 0) cell.structure = true;
+      }
+    }
+  }
+}
+
+void Walls::take_columns(const Model& model, const PlaneGrids& grids, std::size_t plane) noexcept {
+  const PlaneGrid& grid = grids.grid(plane);
+  columns_.clear();
+  for (std::int32_t c = 0; c < grid.columns; ++c) {
+    Column column;
+    std::int32_t through = 0;  // cells that are seen and passed: glass
+    for (std::int32_t row = 0; row < grid.rows; ++row) {
+      const Cell& cell = grids.cell(grid, c, row);
+      if (cell.seen > 0) {
+        if (column.seen++ == 0) column.bottom = row;
+        column.top = row;
+      }
+      if (cell.passed < kPassed) continue;
+      const float z = grid.centre(model.planes[plane], c, row).z();
+      if (z > model.floor_z + kMarginM && z < model.ceiling_z - kMarginM) {
+        ++(cell.seen > 0 ? through : column.open);
+      }
+    }
+    if (through >= column.open || hangs_from_ceiling(model, grids, plane, c, column))
+      column.open = 0;
+    columns_.push_back(column);
+  }
+}
+
+// What reaches up to the ceiling and is passed below only: a beam, a lintel.
+bool Walls::hangs_from_ceiling(const Model& model, const PlaneGrids& grids, std::size_t plane,
+                               std::int32_t c, const Column& column) const noexcept {
+  const PlaneGrid& grid = grids.grid(plane);
+  if (column.seen == 0 || std::isinf(model.ceiling_z) ||
+      grid.centre(model.planes[plane], c, column.top).z() < model.ceiling_z - kToCeilingM) {
+    return false;
+  }
+  for (std::int32_t row = column.bottom; row < grid.rows; ++row) {
+    const bool is_above_ceiling =
+        grid.centre(model.planes[plane], c, row).z() > model.ceiling_z - kMarginM;
+    if (!is_above_ceiling && grids.cell(grid, c, row).passed >= kPassed) return false;
+  }
+  return true;
+}
+
+void Walls::split(Model& model, const PlaneGrids& grids, std::size_t plane,
+                  bool free_space) noexcept {
+  const auto count = static_cast<std::int32_t>(columns_.size());
+  const auto seen = [this](std::int32_t c) { return columns_[static_cast<std::size_t>(c)].seen; };
+  for (std::int32_t first = 0; first < count; ++first) {
+    if (seen(first) == 0) continue;
+    std::int32_t last = first;
+    for (std::int32_t c = first; c < count && c - last <= kGap; ++c) {
+      if (seen(c) > 0) last = c;
+    }
+    if (free_space) {
+      split_run(model, grids, plane, first, last + 1);
+    } else {
+      add_segment(model, grids, plane, first, last + 1, true);
+    }
+    first = last;
+  }
+}
+
+// Accepts a run as a whole when most of it is closed; of the others, the closed parts that reach
+// higher than all of the open ones (a pillar between bookcases).
+void Walls::split_run(Model& model, const PlaneGrids& grids, std::size_t plane, std::int32_t first,
+                      std::int32_t end) noexcept {
+  std::int32_t closed = 0;
+  std::int32_t open = 0;
+  std::int32_t open_top = -1;
+  for (std::int32_t c = first; c < end; ++c) {
+    const Column& column = columns_[static_cast<std::size_t>(c)];
+    (column.open > 0 ? open : closed) += column.seen;
+    if (column.seen > 0 && column.open > 0) open_top = std::max(open_top, column.top);
+  }
+  if (closed >= open) {
+    add_segment(model, grids, plane, first, end, closed + open >= static_cast<int>(kLeastCells));
+    return;
+  }
+  const auto stands_out = [&](std::int32_t c) {
+    const Column& column = columns_[static_cast<std::size_t>(c)];
+    return column.open == 0 && column.seen >= kLeastSeen && column.top > open_top + 1;
+  };
+  bool any = false;
+  for (std::int32_t c = first; c < end; ++c) {
+    if (!stands_out(c)) continue;
+    std::int32_t stop = c;
+    while (stop < end && stands_out(stop)) ++stop;
+    add_segment(model, grids, plane, c, stop, true);
+    any = true;
+    c = stop;
+  }
+  if (!any) add_segment(model, grids, plane, first, end, false);
+}
+
+void Walls::add_segment(Model& model, const PlaneGrids& grids, std::size_t plane,
+                        std::int32_t first, std::int32_t end, bool accepted) const noexcept {
+  if (model.segments.size() == model.segments.capacity() ||
+      model.segments.size() >= kMostSegments) {
+    return;
+  }
+  const PlaneGrid& grid = grids.grid(plane);
+  WallSegment segment;
+  segment.plane = plane;
+  segment.first = first;
+  segment.end = end;
+  segment.accepted = accepted;
+  segment.begin_m = segment.bottom_m = 1e9F;
+  segment.end_m = segment.top_m = -1e9F;
+  for (std::int32_t c = first; c < end; ++c) {
+    const Column& column = columns_[static_cast<std::size_t>(c)];
+    if (column.seen == 0) continue;
+    (column.open > 0 ? segment.open : segment.closed) += static_cast<std::uint32_t>(column.seen);
+    const Extent& extent = grids.extent(grid, c);
+    segment.begin_m = std::min(segment.begin_m, extent.low_m);
+    segment.end_m = std::max(segment.end_m, extent.high_m);
+    const Plane& p = model.planes[plane];
+    segment.bottom_m =
+        std::min(segment.bottom_m, grid.centre(p, c, column.bottom).z() - kCellM / 2);
+    segment.top_m = std::max(segment.top_m, grid.centre(p, c, column.top).z() + kCellM / 2);
+  }
+  model.segments.push_back(segment);
+}
+
+}  // namespace convexcut::robust

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/window.hpp"
+
+#include <algorithm>
+
+#include "core/convex_cut/robust/shape.hpp"
+
+namespace convexcut::robust {
+
+Window::Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std::size_t voxels)
+    : slots_(revolutions), map_(voxels) {
+  for (Slot& slot : slots_) slot.entries.resize(voxels_per_revolution);
+}
+
+void Window::clear() noexcept {
+  map_.clear();
+  oldest_ = newest_ = 0;
+}
+
+void Window::add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t keep) noexcept {
+  keep = std::clamp<std::uint32_t>(keep, 1U, static_cast<std::uint32_t>(slots_.size()));
+  while (newest_ - oldest_ >= keep) forget_oldest();
+  map_.remove_empty();
+  Slot& slot = slots_[newest_ % slots_.size()];
+  slot.origin = origin;
+  slot.count = 0;
+  for (const Voxel& voxel : revolution.voxels()) {
+    if (slot.count == slot.entries.size()) break;
+    const std::int32_t index = map_.find_or_add(voxel.key);
+    if (index == VoxelMap::kNone) continue;
+    Voxel& merged = map_.voxels()[static_cast<std::size_t>(index)];
+    merged.moments.add(voxel.moments, +1);
+    merged.revolution = newest_;
+    merged.changed = true;
+    slot.entries[slot.count++] = {voxel.key, voxel.moments};
+  }
+  ++newest_;
+  take_shapes();
+}
+
+void Window::forget_oldest() noexcept {
+  const Slot& slot = slots_[oldest_++ % slots_.size()];
+  for (std::size_t i = 0; i < slot.count; ++i) {
+    const std::int32_t index = map_.find(slot.entries[i].key);
+    if (index == VoxelMap::kNone) continue;
+    Voxel& merged = map_.voxels()[static_cast<std::size_t>(index)];
+    merged.moments.add(slot.entries[i].moments, -1);
+    merged.changed = true;
+  }
+}
+
+void Window::take_shapes() noexcept {
+  for (Voxel& voxel : map_.voxels()) {
+    if (!voxel.changed) continue;
+    voxel.changed = false;
+    voxel.shape = Shape::other;
+    if (voxel.moments.count < kSupport) continue;
+    const LocalShape local = shape_around(map_, voxel);
+    voxel.shape = local.shape;
+    voxel.direction = local.direction;
+  }
+}
+
+}  // namespace convexcut::robust

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The last revolutions, merged: what a tilted, turning lidar has seen of the room within seconds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/convex_cut/robust/voxel_map.hpp"
+#include "core/geometry.hpp"
+#include "core/workspace.hpp"
+
+namespace convexcut::robust {
+
+class Window {
+ public:
+  // Allocates 56 bytes for every voxel of every revolution.
+  Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std::size_t voxels);
+
+  void clear() noexcept;
+  // Adds a revolution that was seen from `origin`, and forgets those beyond the newest `keep`.
+  void add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t keep) noexcept;
+
+  [[nodiscard]] const VoxelMap& map() const noexcept { return map_; }
+  [[nodiscard]] std::uint32_t revolutions() const noexcept { return newest_ - oldest_; }
+  // Where the lidar was when the voxel was seen last.
+  [[nodiscard]] const Vec3f& origin_of(const Voxel& voxel) const noexcept {
+    return slots_[voxel.revolution % slots_.size()].origin;
+  }
+  [[nodiscard]] const Vec3f& origin() const noexcept {
+    return slots_[(newest_ - 1) % slots_.size()].origin;
+  }
+
+ private:
+  struct Entry {
+    VoxelKey key;
+    Moments moments;
+  };
+  struct Slot {
+    Workspace<Entry> entries;
+    std::size_t count = 0;
+    Vec3f origin = Vec3f::Zero();
+  };
+  void forget_oldest() noexcept;
+  void take_shapes() noexcept;
+
+  std::vector<Slot> slots_;
+  std::uint32_t oldest_ = 0;  // revolutions [oldest_, newest_) are in the map
+  std::uint32_t newest_ = 0;
+  VoxelMap map_;
+};
+
+}  // namespace convexcut::robust
