@@ -144,7 +144,7 @@ void Pipeline::cut(LevelledScan& scan) noexcept {
   // ever, every point would keep the label `other`.
   if (robust_) {
     const std::uint32_t window = options_.robust.window / window_divisor(effort_);
-    static_cast<void>(robust_->label(scan.cloud(), scan.label, std::nullopt, window));
+    static_cast<void>(robust_->label(scan.cloud(), scan.label, scan.position_m, window));
   } else {
     static_cast<void>(engine_->label(scan.cloud(), scan.label, plane_stride(effort_)));
   }
