@@ -139,8 +139,7 @@ template <class Run>
 void add(const std::string& name, Run run) {
   for (const double missing : {0.0, 0.25}) {
     Stages& stages = stages_of(missing);
-    add(name + (missing == 0.0 ? "/room" : "/outdoors"),
-        static_cast<double>(stages.input.returns),
+    add(name + (missing == 0.0 ? "/room" : "/outdoors"), static_cast<double>(stages.input.returns),
         [run, &stages] { return timed([&] { run(stages); }); });
   }
 }
@@ -246,7 +245,8 @@ void add_labelling() {
     add("order" + tilt, returns,
         [shared] { return timed([&] { shared->index.build(shared->cloud.view()); }); });
     add("slices" + tilt, returns, [shared] { return timed([&] { shared->do_slices(); }); });
-    add("write_labels" + tilt, returns, [shared] { return timed([&] { shared->write_labels(); }); });
+    add("write_labels" + tilt, returns,
+        [shared] { return timed([&] { shared->write_labels(); }); });
     add("batch" + tilt, returns, [shared] {
       return timed([&] {
         benchmark::DoNotOptimize(shared->engine.label(shared->cloud.view(), shared->labels));

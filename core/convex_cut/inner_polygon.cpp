@@ -59,7 +59,8 @@ bool InnerPolygon::goes_around_once() const noexcept {
   for (std::size_t k = 0; k < size_; ++k) {
     const std::size_t at = kFirst + k;
     const std::size_t next = k + 1 == size_ ? kFirst : at + 1;
-    turns += static_cast<std::size_t>(u_[at - 1] >= u_[at]) & static_cast<std::size_t>(u_[at] < u_[next]);
+    turns += static_cast<std::size_t>(u_[at - 1] >= u_[at]) &
+             static_cast<std::size_t>(u_[at] < u_[next]);
   }
   return turns == 1;
 }

@@ -160,8 +160,8 @@ TEST_P(DecoderOracle, EveryInstructionSetGivesTheSameBits) {
   }
 }
 
-// The kernels' lanes against the same arithmetic on one return, with whole microdegrees as integers:
-// the promise is one rounding to float and nothing else.
+// The kernels' lanes against the same arithmetic on one return, with whole microdegrees as
+// integers: the promise is one rounding to float and nothing else.
 TEST(DecoderBits, AreThoseOfTheFormulasInDouble) {
   const Model& model = model_of(ModelId::hdl32e);
   // NOLINTNEXTLINE(cert-msc32-c,cert-msc51-cpp)
