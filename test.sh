@@ -74,7 +74,7 @@ build_preset() {
       *) defines+=("$1"); shift ;;
     esac
   done
-  cmake --preset "$preset" "${defines[@]}" && cmake --build --preset "$preset" --target "$target" -j 2
+  cmake --preset "$preset" -DCONVEXCUT_UNITY=ON "${defines[@]}" && cmake --build --preset "$preset" --target "$target" -j 2
 }
 
 # guest_checks: the release build in a guest (tests/vm), whose checks are added to ours.

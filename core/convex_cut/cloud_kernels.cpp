@@ -147,18 +147,20 @@ void place_points(const CloudView& cloud, const std::uint16_t* keys, const Keyed
   for (std::size_t i = b.begin + done; i < b.end; ++i) place_one(i, b.next);
 }
 
-void spread_records(const PointRecord* records, std::size_t begin, std::size_t end, float* x,
-                    float* y, float* z) {
+void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
+                    const PointColumns columns) {
   const Floats df;
+  const hn::ScalableTag<std::uint32_t> dw;
   for (std::size_t i = begin; i < end; i += hn::Lanes(df)) {
-    Float xs;
-    Float ys;
-    Float zs;
-    Float sources;
-    hn::LoadInterleaved4(df, &records[i].x, xs, ys, zs, sources);
-    hn::StoreU(xs, df, x + i);
-    hn::StoreU(ys, df, y + i);
-    hn::StoreU(zs, df, z + i);
+    Float x;
+    Float y;
+    Float z;
+    Float source;
+    hn::LoadInterleaved4(df, &records[i].x, x, y, z, source);
+    hn::StoreU(x, df, columns.x + i);
+    hn::StoreU(y, df, columns.y + i);
+    hn::StoreU(z, df, columns.z + i);
+    hn::StoreU(hn::BitCast(dw, source), dw, columns.source + i);
   }
 }
 
@@ -188,9 +190,9 @@ void place_points(const CloudView& cloud, const std::uint16_t* keys, const Keyed
   HWY_DYNAMIC_DISPATCH(place_points)(cloud, keys, a, b, records);
 }
 
-void spread_records(const PointRecord* records, std::size_t begin, std::size_t end, float* x,
-                    float* y, float* z) noexcept {
-  HWY_DYNAMIC_DISPATCH(spread_records)(records, begin, end, x, y, z);
+void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
+                    const PointColumns& columns) noexcept {
+  HWY_DYNAMIC_DISPATCH(spread_records)(records, begin, end, columns);
 }
 
 }  // namespace convexcut

@@ -48,9 +48,16 @@ struct KeyedPart {
 void place_points(const CloudView& cloud, const std::uint16_t* keys, const KeyedPart& a,
                   const KeyedPart& b, PointRecord* records) noexcept;
 
-// Copies the coordinates of records [begin, end) to the same places of three columns. Whole vectors
-// are read and written.
-void spread_records(const PointRecord* records, std::size_t begin, std::size_t end, float* x,
-                    float* y, float* z) noexcept;
+// Sorted points.
+struct PointColumns {
+  float* x;
+  float* y;
+  float* z;
+  std::uint32_t* source;
+};
+// Copies records [begin, end) to the same places of the columns. Whole vectors are read and
+// written.
+void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
+                    const PointColumns& columns) noexcept;
 
 }  // namespace convexcut

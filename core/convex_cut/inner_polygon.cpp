@@ -12,32 +12,21 @@ namespace {
   return (b.u - a.u) * (c.z - a.z) - (b.z - a.z) * (c.u - a.u) > 0.0;
 }
 
-// Of the two directions of an edge: up, or level and to the right.
-[[nodiscard]] bool leads_up(const SlicePoint& from, const SlicePoint& to) noexcept {
-  return to.z > from.z || (to.z == from.z && to.u > from.u);
-}
-
 }  // namespace
 
 void InnerPolygon::close() noexcept {
-  std::size_t left = 0;
-  for (std::size_t k = 0; k < size_; ++k) {  // without branches: repetitions come at random
-    const SlicePoint point = corner(k);
-    const SlicePoint before = corner(left == 0 ? size_ - 1 : left - 1);
-    u_[kFirst + left] = point.u;
-    z_[kFirst + left] = point.z;
-    left += static_cast<std::size_t>(point.u != before.u) |
-            static_cast<std::size_t>(point.z != before.z);
+  find_turns();
+  if (turns_.all_left) return;
+  remove_dents();
+  find_turns();
+}
+
+void InnerPolygon::find_turns() noexcept {
+  for (auto* column : {&u_, &z_}) {
+    (*column)[0] = (*column)[size_];
+    (*column)[kFirst + size_] = (*column)[kFirst];
   }
-  size_ = left;
-  bool convex = true;
-  for (std::size_t k = 0; k < size_; ++k) {
-    convex &= turns_left(corner(k == 0 ? size_ - 1 : k - 1), corner(k),
-                         corner(k + 1 == size_ ? 0 : k + 1));
-  }
-  if (!convex) remove_dents();
-  u_[0] = u_[size_];
-  z_[0] = z_[size_];
+  turns_ = convexcut::find_turns(polygon());
 }
 
 void InnerPolygon::remove_dents() noexcept {
@@ -54,29 +43,15 @@ void InnerPolygon::remove_dents() noexcept {
   size_ = left;
 }
 
-bool InnerPolygon::goes_around_once() const noexcept {
-  std::size_t turns = 0;
-  for (std::size_t k = 0; k < size_; ++k) {
-    const std::size_t at = kFirst + k;
-    const std::size_t next = k + 1 == size_ ? kFirst : at + 1;
-    turns += static_cast<std::size_t>(u_[at - 1] >= u_[at]) &
-             static_cast<std::size_t>(u_[at] < u_[next]);
-  }
-  return turns == 1;
-}
-
 bool InnerPolygon::is_convex() const noexcept {
-  std::size_t turns = 0;
-  SlicePoint before = corner(size_ - 2);
-  SlicePoint at = corner(size_ - 1);
+  if (!goes_around_once()) return false;
+  if (turns_.all_left) return true;
   for (std::size_t k = 0; k < size_; ++k) {
-    const SlicePoint next = corner(k);
-    if (orientation(before, at, next) <= 0) return false;
-    turns += static_cast<std::size_t>(!leads_up(before, at) && leads_up(at, next));
-    before = at;
-    at = next;
+    const SlicePoint& before = corner(k == 0 ? size_ - 1 : k - 1);
+    const SlicePoint& next = corner(k + 1 == size_ ? 0 : k + 1);
+    if (orientation(before, corner(k), next) <= 0) return false;
   }
-  return turns == 1;
+  return true;
 }
 
 }  // namespace convexcut

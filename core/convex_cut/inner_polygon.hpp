@@ -28,6 +28,12 @@ class InnerPolygon {
     z_[kFirst + size_] = corner.z;
     ++size_;
   }
+  // Without a branch: often half of the points that are tried are no corners.
+  void add_if(const SlicePoint& corner, bool is_corner) noexcept {
+    u_[kFirst + size_] = corner.u;
+    z_[kFirst + size_] = corner.z;
+    size_ += static_cast<std::size_t>(is_corner);
+  }
   // Behind the last corner: leaves out corners that repeat the one before or do not turn left.
   void close() noexcept;
 
@@ -41,7 +47,7 @@ class InnerPolygon {
 
   // Whether its edges lead to the right and back to the left just once: then left turns make it
   // convex, but for rounding.
-  [[nodiscard]] bool goes_around_once() const noexcept;
+  [[nodiscard]] bool goes_around_once() const noexcept { return turns_.rounds == 1; }
 
   // Exactly: every corner turns left, and they go around once. Then no corner is in the hull of the
   // others.
@@ -50,10 +56,12 @@ class InnerPolygon {
  private:
   static constexpr std::size_t kFirst = 1;  // before it, the last one again
   void remove_dents() noexcept;
+  void find_turns() noexcept;
 
   std::array<double, kFirst + kMostCorners + kKernelPadding> u_{};
   std::array<double, kFirst + kMostCorners + kKernelPadding> z_{};
   std::size_t size_ = 0;
+  Turns turns_;
 };
 
 }  // namespace convexcut

@@ -4,6 +4,8 @@
 #include <bit>
 #include <limits>
 
+#include "core/convex_cut/orientation.hpp"
+
 #undef HWY_TARGET_INCLUDE
 // Highway includes this file again for each instruction set.
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
@@ -61,6 +63,30 @@ void set_edges(const Polygon polygon, PolygonEdges& all_edges) {
   all_edges.count = polygon.size;
 }
 
+Turns find_turns(const Polygon polygon) {
+  const hn::ScalableTag<double> dd;
+  const auto filter = hn::Set(dd, kOrientationFilter);
+  Turns turns{true, 0};
+  for (std::size_t k = 0; k < polygon.size; k += hn::Lanes(dd)) {
+    const auto from_u = hn::LoadU(dd, polygon.u + k - 1);
+    const auto at_u = hn::LoadU(dd, polygon.u + k);
+    const auto to_u = hn::LoadU(dd, polygon.u + k + 1);
+    const auto to_z = hn::LoadU(dd, polygon.z + k + 1);
+    // As in orientation().
+    const auto left = hn::Mul(hn::Sub(from_u, to_u), hn::Sub(hn::LoadU(dd, polygon.z + k), to_z));
+    const auto right =
+        hn::Mul(hn::Sub(hn::LoadU(dd, polygon.z + k - 1), to_z), hn::Sub(at_u, to_u));
+    const auto determinant = hn::Sub(left, right);
+    const auto bound = hn::Mul(filter, hn::Add(hn::Abs(left), hn::Abs(right)));
+    const auto surely_left = hn::And(hn::Ge(determinant, bound), hn::Gt(determinant, hn::Zero(dd)));
+    const auto absent = hn::Not(hn::FirstN(dd, polygon.size - k));
+    turns.all_left = turns.all_left && hn::AllTrue(dd, hn::Or(surely_left, absent));
+    const auto reverses = hn::AndNot(absent, hn::And(hn::Ge(from_u, at_u), hn::Lt(at_u, to_u)));
+    turns.rounds += hn::CountTrue(dd, reverses);
+  }
+  return turns;
+}
+
 // Copies the edges that are over [least_u, most_u] and returns how many these are.
 HWY_INLINE std::size_t copy_facing(const PolygonEdges& edges, float least_u, float most_u,
                                    const EdgeColumns& facing) noexcept {
@@ -105,8 +131,8 @@ HWY_INLINE Pair load_with_depth(const EdgeColumns& edges, std::size_t edge_count
     const Float normal_u = hn::Set(df, edges.normal_u[k]);
     const Float normal_z = hn::Set(df, edges.normal_z[k]);
     const Float offset = hn::Set(df, edges.offset[k]);
-    p.depth0 = hn::Min(p.depth0, hn::MulAdd(normal_u, p.u0, hn::MulSub(normal_z, p.z0, offset)));
-    p.depth1 = hn::Min(p.depth1, hn::MulAdd(normal_u, p.u1, hn::MulSub(normal_z, p.z1, offset)));
+    p.depth0 = least_of(p.depth0, hn::MulAdd(normal_u, p.u0, hn::MulSub(normal_z, p.z0, offset)));
+    p.depth1 = least_of(p.depth1, hn::MulAdd(normal_u, p.u1, hn::MulSub(normal_z, p.z1, offset)));
   }
   return p;
 }
@@ -235,7 +261,7 @@ void farthest_outside(const EdgeColumns edges, const SliceColumns members, std::
     for (std::size_t i = 0; i < count; ++i) {
       const Float depth = hn::MulAdd(normal_u, hn::Set(df, members.u[i]),
                                      hn::MulSub(normal_z, hn::Set(df, members.z[i]), offset));
-      least = hn::Min(least, tagged(depth, hn::Set(dw, static_cast<std::uint32_t>(i)), keep));
+      least = least_of(least, tagged(depth, hn::Set(dw, static_cast<std::uint32_t>(i)), keep));
     }
     const Word tag = hn::And(hn::BitCast(dw, least), hn::Set(dw, tag_mask));
     const auto is_found = hn::RebindMask(dw, hn::Lt(least, outside));
@@ -251,6 +277,7 @@ namespace convexcut {
 
 // Highway's table takes no noexcept functions; none of them throws.
 HWY_EXPORT(set_edges);
+HWY_EXPORT(find_turns);
 HWY_EXPORT(find_shallow);
 HWY_EXPORT(drop_deep);
 HWY_EXPORT(farthest_outside);
@@ -258,6 +285,10 @@ HWY_EXPORT(mark_near);
 
 void set_edges(const Polygon& polygon, PolygonEdges& edges) noexcept {
   HWY_DYNAMIC_DISPATCH(set_edges)(polygon, edges);
+}
+
+Turns find_turns(const Polygon& polygon) noexcept {
+  return HWY_DYNAMIC_DISPATCH(find_turns)(polygon);
 }
 
 std::size_t find_shallow(const PolygonEdges& edges, const EdgeColumns& facing,

@@ -12,8 +12,8 @@
 
 namespace convexcut {
 
-// Corners of a closed polygon, counter-clockwise, in metres. corner[-1] is the last one again, and
-// kKernelPadding elements behind the last can be read.
+// Corners of a closed polygon, counter-clockwise, in metres. In front of the first comes the last
+// one again, behind the last the first one, and kKernelPadding elements more can be read.
 struct Polygon {
   const double* u = nullptr;
   const double* z = nullptr;
@@ -40,6 +40,12 @@ struct PolygonEdges : EdgeColumns {
 // The edges of a polygon into `edges`, whose columns have kKernelPadding elements to spare: edge k
 // leads from corner k − 1 to corner k. Rounded once from double.
 void set_edges(const Polygon& polygon, PolygonEdges& edges) noexcept;
+
+struct Turns {
+  bool all_left = false;   // every corner, exactly; false also where rounding leaves doubt
+  std::size_t rounds = 0;  // how often the edges turn from leading left to leading right
+};
+[[nodiscard]] Turns find_turns(const Polygon& polygon) noexcept;
 
 // The kernels below take members stretch by stretch, and compare those of a stretch only with the
 // edges that are over it or at most `limit_m` beside it. A convex polygon has its boundary above

@@ -35,6 +35,7 @@ ShellIndex::ShellIndex(double half_width_m, std::size_t max_points, unsigned thr
       x_(max_points + kKernelPadding, 1),
       y_(max_points + kKernelPadding, 2),
       z_(max_points + kKernelPadding, 3),
+      source_(max_points + kKernelPadding, 4),
       starts_(kKeys + 1) {
   for (Part& part : parts_) {
     for (std::vector<std::uint32_t>& counts : part.counts) counts.resize(kKeys);
@@ -127,8 +128,8 @@ void ShellIndex::place(std::size_t part) noexcept {
 
 void ShellIndex::spread(std::size_t chunk) noexcept {
   const std::size_t begin = chunk * kChunk;
-  spread_records(records_.data(), begin, std::min(begin + kChunk, size_), x_.data(), y_.data(),
-                 z_.data());
+  spread_records(records_.data(), begin, std::min(begin + kChunk, size_),
+                 {x_.data(), y_.data(), z_.data(), source_.data()});
 }
 
 ShellIndex::Windows ShellIndex::windows(const SlicingPlane& plane) noexcept {

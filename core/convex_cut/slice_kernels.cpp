@@ -93,21 +93,12 @@ struct Axis {
   float z;
 };
 constexpr float kLean = 1.0F / 16.0F;
-constexpr std::array<Axis, kAxes> kCoarse{
+constexpr std::array<Axis, kAxes> kDirections{
     {{1, 0}, {1, kLean}, {1, 1}, {kLean, 1}, {0, 1}, {-kLean, 1}, {-1, 1}, {-1, kLean}}};
-constexpr float kSlight = 1.0F / 32.0F;
-constexpr float kStrong = 1.0F / 4.0F;
-constexpr std::array<Axis, kAxes> kFine{{{1, kSlight},
-                                         {1, kStrong},
-                                         {kStrong, 1},
-                                         {kSlight, 1},
-                                         {-kSlight, 1},
-                                         {-kStrong, 1},
-                                         {-1, kStrong},
-                                         {-1, kSlight}}};
-
 // The vectors of members are numbered: a value is tagged with its vector's number.
-constexpr std::size_t kMostVectors = 1U << 11U;
+// When there are more than can be numbered, only one in so many is looked at; and of single members
+// on the baseline path, which would spend half of its time here.
+constexpr std::size_t kMostVectors = HWY_TARGET == HWY_SCALAR ? 1U << 7U : 1U << 11U;
 
 // The member that the best of the lanes' tagged values names.
 HWY_INLINE std::uint32_t tagged_member(Float tagged_values, Float best, std::uint32_t tag_mask,
@@ -120,7 +111,7 @@ HWY_INLINE std::uint32_t tagged_member(Float tagged_values, Float best, std::uin
   return static_cast<std::uint32_t>(index < count ? index : count - 1);
 }
 
-Extremes extremes(const SliceColumns members, std::size_t count, Directions directions) {
+Extremes extremes(const SliceColumns members, std::size_t count) {
   const Floats df;
   const Words dw;
   const std::size_t lanes = hn::Lanes(df);
@@ -130,7 +121,6 @@ Extremes extremes(const SliceColumns members, std::size_t count, Directions dire
   const std::size_t step = lanes * (count / lanes / kMostVectors + 1);
   const auto tag_mask = static_cast<std::uint32_t>(std::bit_ceil((count + step - 1) / step) - 1);
 
-  const std::array<Axis, kAxes>& axes = directions == Directions::coarse ? kCoarse : kFine;
   const Word keep = hn::Set(dw, ~tag_mask);
   Float most[kAxes];
   Float least[kAxes];
@@ -144,11 +134,11 @@ Extremes extremes(const SliceColumns members, std::size_t count, Directions dire
     const Float z = hn::LoadU(df, members.z + i);
     const Word tag = hn::Set(dw, number);
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
-      const Float value =
-          hn::MulAdd(u, hn::Set(df, axes[axis].u), hn::Mul(z, hn::Set(df, axes[axis].z)));
+      const Float value = hn::MulAdd(u, hn::Set(df, kDirections[axis].u),
+                                     hn::Mul(z, hn::Set(df, kDirections[axis].z)));
       const Float numbered = tagged(value, tag, keep);
-      most[axis] = hn::Max(most[axis], numbered);
-      least[axis] = hn::Min(least[axis], numbered);
+      most[axis] = most_of(most[axis], numbered);
+      least[axis] = least_of(least[axis], numbered);
     }
   }
   Extremes found{};
@@ -178,8 +168,8 @@ std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
                                       members, stretches);
 }
 
-Extremes extremes(const SliceColumns& members, std::size_t count, Directions directions) noexcept {
-  return HWY_DYNAMIC_DISPATCH(extremes)(members, count, directions);
+Extremes extremes(const SliceColumns& members, std::size_t count) noexcept {
+  return HWY_DYNAMIC_DISPATCH(extremes)(members, count);
 }
 
 }  // namespace convexcut

@@ -45,12 +45,9 @@ struct Stretch {
                                  const SliceColumns& members, Stretch* stretches) noexcept;
 
 // Indices of members that are (nearly, to 2⁻¹² of their value) outermost in sixteen directions,
-// counter-clockwise from +u. Some may be equal. Needs 0 < count < 2³¹. The fine directions lie
-// between the coarse ones.
+// counter-clockwise from +u. Some may be equal. Needs 0 < count < 2³¹.
 inline constexpr std::size_t kExtremes = 16;
 using Extremes = std::array<std::uint32_t, kExtremes>;
-enum class Directions : std::uint8_t { coarse, fine };
-[[nodiscard]] Extremes extremes(const SliceColumns& members, std::size_t count,
-                                Directions directions) noexcept;
+[[nodiscard]] Extremes extremes(const SliceColumns& members, std::size_t count) noexcept;
 
 }  // namespace convexcut

@@ -125,8 +125,11 @@ Polygon SliceWorker::hull_of_members(const SlicingPlane& plane) noexcept {
 // The outermost members in turn.
 void SliceWorker::start_polygon(const SlicingPlane& plane) noexcept {
   polygon_->clear();
-  for (const std::uint32_t member : extremes(members(), count_, Directions::coarse)) {
-    polygon_->add(exact_point(plane, position_[member] & ~kMarked));
+  const Extremes outermost = extremes(members(), count_);
+  std::uint32_t before = outermost.back();
+  for (const std::uint32_t member : outermost) {
+    polygon_->add_if(exact_point(plane, position_[member] & ~kMarked), member != before);
+    before = member;
   }
   polygon_->close();
 }
@@ -155,9 +158,9 @@ bool SliceWorker::widen_polygon(const SlicingPlane& plane, std::size_t candidate
   farthest_outside(edges_, shallow(), candidates, tolerance_m_, farthest_.data());
   wider_polygon_->clear();
   for (std::size_t k = 0; k < polygon_->size(); ++k) {
-    if (farthest_[k] != kNobody) {
-      wider_polygon_->add(exact_point(plane, shallow_position_[farthest_[k]]));
-    }
+    const bool is_found = farthest_[k] != kNobody;
+    const std::uint32_t farthest = is_found ? farthest_[k] : 0;
+    wider_polygon_->add_if(exact_point(plane, shallow_position_[farthest]), is_found);
     wider_polygon_->add(polygon_->corner(k));
   }
   if (wider_polygon_->size() == polygon_->size()) return false;
@@ -181,15 +184,17 @@ Polygon SliceWorker::exact_hull(const SlicingPlane& plane, std::size_t count) no
   }
   u[-1] = hull.back().u;
   z[-1] = hull.back().z;
-  return {u, z, hull.size()};
+  const Polygon polygon{u, z, hull.size()};
+  set_edges(polygon, edges_);
+  return polygon;
 }
 
 void SliceWorker::keep_all_members() noexcept {
   for (std::size_t i = 0; i < count_; ++i) marks_[position_[i] & ~kMarked] = 1;
 }
 
+// Of the hull, edges_ are the edges.
 void SliceWorker::keep(const SlicingPlane& plane, const Polygon& hull) noexcept {
-  set_edges(hull, edges_);
   std::uint32_t* const doubtful = shallow_position_.data();  // the hull is done with
   const std::size_t doubtful_count =
       mark_near(edges_, facing_, members(), stretches_, static_cast<float>(hull_distance_m_),

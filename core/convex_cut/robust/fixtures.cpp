@@ -11,14 +11,16 @@ namespace {
 constexpr std::size_t kMostCells = 1U << 16U;
 constexpr std::int32_t kLeastPoints = 20;  // of a cell, for a mean to half a centimetre
 constexpr float kOffM = 0.014F;            // the wall itself is flatter than this
-constexpr std::size_t kLeastCells = 2;
+constexpr std::size_t kLeastCells = 3;
+constexpr std::uint32_t kLargeSurfels = 60;  // of a wall; smaller ones have no sure face
 constexpr float kBinM = 0.004F;
 constexpr std::size_t kBins = 41;  // ±8 cm
 constexpr float kToFloorM = 0.4F;
-constexpr float kDoorHeightM = 1.7F;
+constexpr float kDoorHeightM = 1.5F;
+constexpr float kRoomHighM = 2.2F;  // a layer as high as that is a part of the wall
 constexpr float kLeastDoorM = 0.5F;
 constexpr float kMostDoorM = 1.3F;
-constexpr float kSolid = 0.75F;  // share of its rectangle that a door covers
+constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
 
 [[nodiscard]] float mean_of(const Cell& cell) noexcept {
   return cell.height_sum_m / static_cast<float>(cell.points);
@@ -62,14 +64,14 @@ Fixtures::Fixtures() { layer_.reserve(kMostCells); }
 void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     Plane& plane = model.planes[k];
-    if (!plane.accepted || !plane.vertical) continue;
+    if (!plane.accepted || !plane.vertical || plane.surfels < kLargeSurfels) continue;
     const PlaneGrid& grid = grids.grid(k);
     plane.face_m = face_of(grids, grid);
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       for (std::int32_t column = 0; column < grid.columns; ++column) {
         if (!is_off(grids.cell(grid, column, row), plane.face_m)) continue;
         collect_layer(grids, grid, plane.face_m, {column, row});
-        if (layer_.size() >= kLeastCells && !is_door(model, plane, grid)) continue;
+        if (layer_.size() >= kLeastCells && !is_of_the_wall(model, plane, grid)) continue;
         for (const Place& at : layer_) grids.cell(grid, at.column, at.row).layer_m = 0.0F;
       }
     }
@@ -99,8 +101,8 @@ void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float fac
   }
 }
 
-bool Fixtures::is_door(const Model& model, const Plane& plane,
-                       const PlaneGrid& grid) const noexcept {
+bool Fixtures::is_of_the_wall(const Model& model, const Plane& plane,
+                              const PlaneGrid& grid) const noexcept {
   Place low = layer_.front();
   Place high = low;
   for (const Place& at : layer_) {
@@ -111,8 +113,9 @@ bool Fixtures::is_door(const Model& model, const Plane& plane,
   const float width = static_cast<float>(high.column - low.column + 1) * kCellM;
   const float height = static_cast<float>(high.row - low.row + 1) * kCellM;
   const float solid = static_cast<float>(layer_.size()) * kCellM * kCellM / (width * height);
-  return !std::isinf(model.floor_z) && bottom < model.floor_z + kToFloorM &&
-         height >= kDoorHeightM && width >= kLeastDoorM && width <= kMostDoorM && solid >= kSolid;
+  if (std::isinf(model.floor_z) || bottom > model.floor_z + kToFloorM) return false;
+  const bool like_a_door = height >= kDoorHeightM && width >= kLeastDoorM && width <= kMostDoorM;
+  return (like_a_door || height >= kRoomHighM) && solid >= kSolid;
 }
 
 }  // namespace convexcut::robust

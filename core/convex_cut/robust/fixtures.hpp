@@ -12,7 +12,7 @@ namespace convexcut::robust {
 // What lies flat on a wall or in a recess of it, nearer than a band can tell: pictures, boards,
 // blinds, the backs of bookcases. The mean of a cell's points is known to millimetres, so connected
 // cells that are off the wall's face together show a layer. One that stands on the floor like a
-// door is structure.
+// door, or is as high as the room, is a part of the wall.
 class Fixtures {
  public:
   Fixtures();
@@ -25,8 +25,8 @@ class Fixtures {
     std::int32_t column, row;
   };
   void collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float face_m, Place seed) noexcept;
-  [[nodiscard]] bool is_door(const Model& model, const Plane& plane,
-                             const PlaneGrid& grid) const noexcept;
+  [[nodiscard]] bool is_of_the_wall(const Model& model, const Plane& plane,
+                                    const PlaneGrid& grid) const noexcept;
 
   std::vector<Place> layer_;  // also the queue of the search for it
 };

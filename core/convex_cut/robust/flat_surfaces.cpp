@@ -12,6 +12,9 @@ constexpr std::size_t kMostCellsOfAPart = 1U << 18U;
 constexpr std::int32_t kReach = 2;  // cells: gaps within a part, and the ring around it
 constexpr std::size_t kLeastCells = 6;
 constexpr std::size_t kMostParts = 4'096;
+constexpr float kLeastBeamM = 2.5F;
+constexpr float kMostBeamM = 0.8F;
+constexpr float kBeamHeightM = 0.7F;
 constexpr float kTableM = 0.2F;           // above the floor
 constexpr float kMostlyOver = 0.7F;       // of its extent
 constexpr std::uint16_t kPassed = 2;      // one ray alone may be a ghost's
@@ -35,12 +38,14 @@ void for_each_within_reach(const PlaneGrid& grid, std::int32_t column, std::int3
 FlatSurfaces::FlatSurfaces() {
   part_.reserve(kMostCellsOfAPart);
   ring_.reserve(kMostCellsOfAPart);
-  parts_.reserve(kMostParts);
+  parts_.reserve(2 * kMostParts);
+  open_parts_.reserve(kMostParts);
 }
 
 void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
                         bool free_space) noexcept {
   parts_.clear();
+  open_parts_.clear();
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     if (model.planes[k].vertical) continue;
     const PlaneGrid& grid = grids.grid(k);
@@ -50,8 +55,9 @@ void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
         const Cell& cell = grids.cell(grid, column, row);
         if (cell.seen == 0 || cell.part >= 0) continue;
         collect_part(grids, grid, {column, row}, id);
-        if (part_.size() >= kLeastCells && (!free_space || bounds_free_space(grids, grid, id))) {
-          add_part(model.planes[k], k, grid, id);
+        if (part_.size() >= kLeastCells) {
+          const bool bounds = !free_space || bounds_free_space(grids, grid, id);
+          add_part(model.planes[k], k, grid, id, bounds ? parts_ : open_parts_);
         }
         ++id;
       }
@@ -60,18 +66,21 @@ void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
   if (free_space) reject_table_tops(model, origin);
   for (const Part& part : parts_) accept(model, grids, part);
   find_levels(model, origin);
+  const std::size_t before = parts_.size();
+  add_beams(model);
+  for (std::size_t i = before; i < parts_.size(); ++i) accept(model, grids, parts_[i]);
 }
 
 void FlatSurfaces::add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid,
-                            std::int16_t id) noexcept {
-  if (parts_.size() == kMostParts) return;
+                            std::int16_t id, std::vector<Part>& parts) noexcept {
+  if (parts.size() == kMostParts) return;
   Part part{k, id, part_.size(), Vec3f::Constant(1e9F), Vec3f::Constant(-1e9F)};
   for (const Place& at : part_) {
     const Vec3f centre = grid.centre(plane, at.column, at.row);
     part.low = part.low.cwiseMin(centre);
     part.high = part.high.cwiseMax(centre);
   }
-  parts_.push_back(part);
+  parts.push_back(part);
 }
 
 bool FlatSurfaces::is_above_floor(const Part& part, const Part& floor) const noexcept {
@@ -93,6 +102,18 @@ void FlatSurfaces::reject_table_tops(const Model& model, const Vec3f& origin) no
   std::erase_if(parts_, [&](const Part& part) {
     return part.high.z() < origin.z() && is_above_floor(part, largest);
   });
+}
+
+// The undersides of beams: long, and close under the ceiling.
+void FlatSurfaces::add_beams(const Model& model) noexcept {
+  for (const Part& part : open_parts_) {
+    const Eigen::Array2f size = (part.high - part.low).head<2>().array() + kCellM;
+    if (model.planes[part.plane].normal.z() < -kLevel && size.maxCoeff() > kLeastBeamM &&
+        size.minCoeff() < kMostBeamM && part.low.z() > model.ceiling_z - kBeamHeightM &&
+        part.high.z() < model.ceiling_z) {
+      parts_.push_back(part);
+    }
+  }
 }
 
 void FlatSurfaces::accept(Model& model, PlaneGrids& grids, const Part& part) const noexcept {

@@ -31,10 +31,12 @@ class FlatSurfaces {
     std::size_t cells = 0;
     Vec3f low, high;  // of its cells' centres
   };
-  void add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid, std::int16_t id) noexcept;
+  void add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid, std::int16_t id,
+                std::vector<Part>& parts) noexcept;
   [[nodiscard]] bool is_above_floor(const Part& part, const Part& floor) const noexcept;
   void reject_table_tops(const Model& model, const Vec3f& origin) noexcept;
   void accept(Model& model, PlaneGrids& grids, const Part& part) const noexcept;
+  void add_beams(const Model& model) noexcept;
   void find_levels(Model& model, const Vec3f& origin) const noexcept;
   void collect_part(PlaneGrids& grids, const PlaneGrid& grid, Place seed, std::int16_t id) noexcept;
   [[nodiscard]] bool bounds_free_space(PlaneGrids& grids, const PlaneGrid& grid,
@@ -43,6 +45,7 @@ class FlatSurfaces {
   std::vector<Place> part_;  // also the queue of the search for it
   std::vector<Place> ring_;
   std::vector<Part> parts_;
+  std::vector<Part> open_parts_;  // that are passed around
 };
 
 }  // namespace convexcut::robust

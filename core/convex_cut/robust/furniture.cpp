@@ -21,8 +21,10 @@ constexpr float kTallerThanFurnitureM = 2.4F;
 constexpr float kLeastHeightM = 1.0F;  // of a narrow face
 constexpr float kTouchM = 0.4F;
 constexpr float kSameTopM = 0.6F;
-constexpr float kRounder = 1.7F;  // spread², relative to the noise²
-constexpr int kPasses = 2;        // fronts before fronts
+constexpr float kRounder = 1.7F;   // spread², relative to the noise²
+constexpr float kHangingM = 1.6F;  // over the floor
+constexpr float kLeastBeamM = 1.6F;
+constexpr int kPasses = 2;  // fronts before fronts
 
 struct PlaneExtent {
   float begin_m = 1e9F, end_m = -1e9F;
@@ -126,6 +128,11 @@ void reject_furniture(Model& model) noexcept {
     }
   }
   for (WallSegment& s : model.segments) {
+    // Short things that hang are lamps.
+    if (s.accepted && s.bottom_m > model.floor_z + kHangingM && !std::isinf(model.floor_z) &&
+        s.end_m - s.begin_m < kLeastBeamM) {
+      s.accepted = false;
+    }
     if (!s.accepted || !s.narrow) continue;
     const bool round = model.planes[s.plane].spread2 > kRounder * model.noise2;
     if (round || s.top_m - s.bottom_m < kLeastHeightM || is_side_of_rejected(model, s)) {

@@ -28,6 +28,7 @@ constexpr float kKnownMotionM = 0.02F;
 constexpr float kStillM = 0.02F;  // a step below this is none
 constexpr float kLeastOfLastShare = 0.5F;
 constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
+constexpr std::int32_t kFlatReach = 6;     // cells: between two rings on a far floor
 constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
 
 [[nodiscard]] const RobustParameters& checked(const RobustParameters& parameters) {
@@ -267,7 +268,7 @@ bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept 
   for (std::size_t i = 0; i < near.count; ++i) {
     const auto k = static_cast<std::size_t>(near.planes.at(i));
     if (std::abs(centred_planes_[k].height_of(p)) <= parameters_.band_m &&
-        grids_.is_structure(k, p, 1)) {
+        grids_.is_structure(k, p, centred_planes_[k].vertical ? 1 : kFlatReach)) {
       return true;
     }
   }

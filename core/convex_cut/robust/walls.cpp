@@ -2,6 +2,7 @@
 #include "core/convex_cut/robust/walls.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/convex_cut/robust/furniture.hpp"
 
@@ -12,7 +13,8 @@ constexpr std::size_t kMostColumns = 1U << 14U;
 constexpr std::size_t kMostSegments = 2'048;
 constexpr std::int32_t kGap = 2;      // columns within a run that may be missing
 constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
-constexpr float kMarginM = 0.2F;      // to floor and ceiling
+constexpr float kToCeilingM = 0.35F;
+constexpr float kMarginM = 0.2F;  // to floor and ceiling
 constexpr std::uint32_t kLeastCells = 4;
 constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
 
@@ -59,9 +61,26 @@ void Walls::take_columns(const Model& model, const PlaneGrids& grids, std::size_
         ++(cell.seen > 0 ? through : column.open);
       }
     }
-    if (through >= column.open) column.open = 0;
+    if (through >= column.open || hangs_from_ceiling(model, grids, plane, c, column))
+      column.open = 0;
     columns_.push_back(column);
   }
+}
+
+// What reaches up to the ceiling and is passed below only: a beam, a lintel.
+bool Walls::hangs_from_ceiling(const Model& model, const PlaneGrids& grids, std::size_t plane,
+                               std::int32_t c, const Column& column) const noexcept {
+  const PlaneGrid& grid = grids.grid(plane);
+  if (column.seen == 0 || std::isinf(model.ceiling_z) ||
+      grid.centre(model.planes[plane], c, column.top).z() < model.ceiling_z - kToCeilingM) {
+    return false;
+  }
+  for (std::int32_t row = column.bottom; row < grid.rows; ++row) {
+    const bool is_above_ceiling =
+        grid.centre(model.planes[plane], c, row).z() > model.ceiling_z - kMarginM;
+    if (!is_above_ceiling && grids.cell(grid, c, row).passed >= kPassed) return false;
+  }
+  return true;
 }
 
 void Walls::split(Model& model, const PlaneGrids& grids, std::size_t plane,

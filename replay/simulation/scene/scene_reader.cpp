@@ -99,7 +99,7 @@ void read_root(Fields root, const std::filesystem::path& directory, const SceneO
                detail::SceneData& scene, Problems& problems) {
   scene.description = root.text_or("description", "");
   scene.rig = read_rig(root);
-  GroupReader groups(directory, problems);
+  GroupReader groups(directory);
   if (auto templates = root.table("template")) groups.read_templates(*templates);
   Assembly assembly(scene, problems);
   assembly.add(groups.read(root));

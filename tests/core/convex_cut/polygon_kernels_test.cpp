@@ -26,8 +26,9 @@ using test::random_columns;
 // The edges of a regular polygon of radius 1 about the origin.
 struct Edges {
   explicit Edges(std::size_t corners)
-      : size(corners), u(corners + 1 + kKernelPadding), z(corners + 1 + kKernelPadding) {
-    for (std::size_t k = 0; k <= corners; ++k) {  // the last one comes first, too
+      : size(corners), u(corners + 2 + kKernelPadding), z(corners + 2 + kKernelPadding) {
+    // In front the last one again, and behind the first one.
+    for (std::size_t k = 0; k < corners + 2; ++k) {
       const double angle =
           2.0 * std::numbers::pi * (static_cast<double>(k) - 1.0) / static_cast<double>(corners);
       u[k] = std::cos(angle);
@@ -38,8 +39,9 @@ struct Edges {
              columns[3].data(),
              columns[4].data()};
     facing = {columns[5].data(), columns[6].data(), columns[7].data()};
-    set_edges({u.data() + 1, z.data() + 1, corners}, edges);
+    set_edges(polygon(), edges);
   }
+  [[nodiscard]] Polygon polygon() const { return {u.data() + 1, z.data() + 1, size}; }
   // Distance from the line of edge k, in double from the corners.
   [[nodiscard]] double depth(std::size_t k, float at_u, float at_z) const {
     const double edge_u = u[k + 1] - u[k];
@@ -85,6 +87,7 @@ constexpr std::array<std::size_t, 7> kCounts{1, 15, 16, 63, 64, 65, 300};
 }
 
 class SetEdges : public test::EverySimdPath {};
+class FindTurns : public test::EverySimdPath {};
 class FindShallow : public test::EverySimdPath {};
 class DropDeep : public test::EverySimdPath {};
 class FarthestOutside : public test::EverySimdPath {};
@@ -117,6 +120,42 @@ TEST_P(SetEdges, GivesUnitNormalsInwardsAndThePartOfTheAxis) {
       }
     }
   }
+}
+
+TEST_P(FindTurns, TellsLeftTurnsAndHowOftenTheyGoRound) {
+  for (const std::size_t corners : kCorners) {
+    Edges tested(corners);
+    const Turns turns = find_turns(tested.polygon());
+    EXPECT_TRUE(turns.all_left);
+    EXPECT_EQ(turns.rounds, 1U);
+  }
+  for (const std::size_t corner : {0U, 3U, 7U, 8U, 16U}) {
+    Edges dented(17);
+    for (std::vector<double>* const column : {&dented.u, &dented.z}) {
+      (*column)[corner + 1] *= 0.5;
+      if (corner == 0) (*column)[18] *= 0.5;
+      if (corner == 16) (*column)[0] *= 0.5;
+    }
+    EXPECT_FALSE(find_turns(dented.polygon()).all_left) << corner;
+  }
+  // A pentagram turns left everywhere, twice round.
+  Edges star(5);
+  const Edges pentagon(5);
+  for (std::size_t k = 0; k < 7; ++k) {
+    star.u[k] = pentagon.u[2 * k % 5 + 1];
+    star.z[k] = pentagon.z[2 * k % 5 + 1];
+  }
+  EXPECT_TRUE(find_turns(star.polygon()).all_left);
+  EXPECT_EQ(find_turns(star.polygon()).rounds, 2U);
+}
+
+TEST_P(FindTurns, LeavesWhatRoundingCouldTurn) {
+  Edges tested(4);
+  tested.u = {0.0, 0.1, 0.3, 1.0, 0.0, 0.1};
+  tested.z = {1.0, 0.1, 0.3, 1.0, 1.0, 0.1};  // the second is in line but for rounding
+  tested.u.resize(6 + kKernelPadding);
+  tested.z.resize(6 + kKernelPadding);
+  EXPECT_FALSE(find_turns(tested.polygon()).all_left);
 }
 
 TEST_P(FindShallow, CopiesThoseThatAreNotDeepFromAnyEdge) {
@@ -223,6 +262,7 @@ TEST_P(MarkNear, MarksWhatIsSurelyNearAndTellsWhatIsDoubtful) {
 }
 
 CONVEXCUT_ON_EVERY_SIMD_PATH(SetEdges);
+CONVEXCUT_ON_EVERY_SIMD_PATH(FindTurns);
 CONVEXCUT_ON_EVERY_SIMD_PATH(FindShallow);
 CONVEXCUT_ON_EVERY_SIMD_PATH(DropDeep);
 CONVEXCUT_ON_EVERY_SIMD_PATH(FarthestOutside);

@@ -129,9 +129,10 @@ std::vector<std::uint32_t> bits_of(const ReturnBatch& batch) {
       bits.push_back(std::bit_cast<std::uint32_t>(value));
     }
     bits.push_back(batch.offset_ns[i]);
-    bits.push_back(static_cast<std::uint32_t>(batch.intensity[i] << 16U | batch.ring[i] << 8U |
-                                              static_cast<unsigned>(batch.echo[i]) << 1U |
-                                              static_cast<unsigned>(batch.farthest[i])));
+    bits.push_back(static_cast<std::uint32_t>(batch.intensity[i]) << 16U |
+                   static_cast<std::uint32_t>(batch.ring[i]) << 8U |
+                   static_cast<std::uint32_t>(batch.echo[i]) << 1U |
+                   static_cast<std::uint32_t>(batch.farthest[i]));
   }
   for (std::size_t i = 0; i < batch.firing_count; ++i) {
     bits.push_back(static_cast<std::uint32_t>(batch.firings[i].azimuth.microdegrees()));
