@@ -42,10 +42,10 @@ class SharedStep {
   }
 
  private:
-  std::uint32_t items_ = 0;  // written by prepare() only
   // Apart, so that waiting does not disturb dealing.
   alignas(64) std::atomic<std::uint32_t> next_{0};  // item that is taken next
   alignas(64) std::atomic<std::uint32_t> done_{0};  // items that have been done
+  std::uint32_t items_ = 0;                         // written by prepare() only
 };
 
 }  // namespace convexcut

@@ -70,8 +70,8 @@ void ShellIndex::begin(const CloudView& cloud) noexcept {
   }
 }
 
-std::uint32_t ShellIndex::count(std::size_t index) noexcept {
-  Part& part = parts_[index];
+std::uint32_t ShellIndex::count(std::size_t part_number) noexcept {
+  Part& part = parts_[part_number];
   part.bounds = {};
   std::uint32_t greatest = 0;
   for (const KeyedPart& run : part.runs) {

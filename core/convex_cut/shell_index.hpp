@@ -53,14 +53,14 @@ class ShellIndex {
   // The same in steps for several threads: a counting sort. Every call of a step is made once, in
   // any thread, and all of them have returned before the next step begins.
   //  1. begin
-  //  2. count(part) for each part: sorts nothing yet. Returns the bit pattern of the greatest
+  //  2. count(part_number) for each part: sorts nothing yet. Returns the bit pattern of the greatest
   //     magnitude of a coordinate (see greatest_magnitude_bits); when that is beyond
   //     kMaxCoordinateM, the part has not been counted and the build has to be given up.
   //  3. lay_out
   //  4. place(part) for each part
   //  5. spread(chunk) for each chunk
   void begin(const CloudView& cloud) noexcept;
-  [[nodiscard]] std::uint32_t count(std::size_t part) noexcept;
+  [[nodiscard]] std::uint32_t count(std::size_t part_number) noexcept;
   void lay_out() noexcept;
   void place(std::size_t part) noexcept;
   void spread(std::size_t chunk) noexcept;

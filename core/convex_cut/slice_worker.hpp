@@ -30,7 +30,7 @@ namespace convexcut {
 
 class SliceWorker {
  public:
-  // Allocates 95 bytes a point: a slice can hold the whole cloud, and all of it be hull.
+  // Allocates 110 bytes a point: a slice can hold the whole cloud, and all of it be hull.
   SliceWorker(const ConvexCutParameters& parameters, std::size_t max_points);
 
   // Before the first slice of a cloud. extent_m: the greatest magnitude of a coordinate.
