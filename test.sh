@@ -41,9 +41,9 @@ check() {
 ctest_preset() {
   local preset=$1 log="$logs/ctest-$1.log" started=$SECONDS status cases total bad skip
   shift
-  ctest --test-dir "build/$preset" -j 2 --output-on-failure "$@" >"$log" 2>&1
+  ctest --test-dir "build/$preset" -j 3 --output-on-failure "$@" >"$log" 2>&1
   status=$?
-  # What GoogleTest says of each case, whether ctest runs it alone or with its program.
+  # Three at a time: the programs mostly wait. What GoogleTest says of each case, whether ctest runs it alone or with its program.
   cases=$logs/cases-$preset.txt
   sed -nE 's/^\[ +(OK|FAILED|SKIPPED) +\] ([^ ,]*).* \([0-9]+ ms\)$/\1 \2/p' \
     "build/$preset/Testing/Temporary/LastTest.log" >"$cases"
@@ -74,7 +74,7 @@ build_preset() {
       *) defines+=("$1"); shift ;;
     esac
   done
-  cmake --preset "$preset" "${defines[@]}" && cmake --build --preset "$preset" --target "$target" -j 2
+  cmake --preset "$preset" -DCONVEXCUT_UNITY=ON "${defines[@]}" && cmake --build --preset "$preset" --target "$target" -j 2
 }
 
 # guest_checks: the release build in a guest (tests/vm), whose checks are added to ours.

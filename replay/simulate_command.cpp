@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -104,7 +107,6 @@ void add_run_options(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
   app.add_option("--seed", o.simulation.seed, "Of all that is drawn by chance")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62U))
       ->capture_default_str();
   app.add_option("--people", o.scene_options.people, "How many people walk about")
       ->check(CLI::NonNegativeNumber)
@@ -151,7 +153,7 @@ void add_rig_options(CLI::App& app, Arguments& a) {
   app.add_option("--path-end", a.way.end, "What follows its last point: back (default), loop, stop")
       ->transform(CLI::CheckedTransformer(std::map<std::string, PathEnd>{
           {"back", PathEnd::back}, {"loop", PathEnd::loop}, {"stop", PathEnd::stop}}))
-      ->type_name("END")
+      ->option_text("back|loop|stop")
       ->group(group);
 }
 

@@ -8,8 +8,8 @@ cd "$(dirname "$0")/.."
 declare -A bound=(
   [decode]=53
   [level]=28
-  [label]=388
-  [stream]=1075
+  [label]=397
+  [stream]=1189
 )
 
 # instructions STAGE ROUNDS

@@ -42,7 +42,8 @@ Revolution revolution(double missing) {
       for (std::size_t laser = 0; laser < model.lasers; ++laser) {
         const double noise_m = static_cast<double>(random() % 81) * 1e-3 - 0.04;
         const double ticks =
-            (range(azimuth, model.elevation_mdeg[laser] * kRadiansPerMillidegree) + noise_m) * 500.0;
+            (range(azimuth, model.elevation_mdeg[laser] * kRadiansPerMillidegree) + noise_m) *
+            500.0;
         // Two thirds of what is missing is sky, the rest anything.
         const bool is_sky = open && model.ring[laser] >= 32.0 - 32.0 * missing;
         const bool is_lost = static_cast<double>(random() % 1000) < 333.0 * missing;

@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "replay/simulation/wire/hdl32e_packets.hpp"
 #include "core/scan/orientation_track.hpp"
 #include "core/time.hpp"
+#include "replay/simulation/wire/hdl32e_packets.hpp"
 
 namespace convexcut::bench {
 

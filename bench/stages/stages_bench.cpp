@@ -5,9 +5,11 @@
 //
 // stages_bench [--benchmark_out=FILE --benchmark_out_format=json …]
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -15,12 +17,17 @@
 #include "bench/convex_cut/room_cloud.hpp"
 #include "bench/stages/plain_decoder.hpp"
 #include "bench/stages/revolution.hpp"
+#include "core/convex_cut/cloud_check.hpp"
 #include "core/convex_cut/engine.hpp"
+#include "core/convex_cut/plane_groups.hpp"
+#include "core/convex_cut/shell_index.hpp"
+#include "core/convex_cut/slice_worker.hpp"
 #include "core/convex_cut/streaming_cut.hpp"
 #include "core/return_batch.hpp"
 #include "core/scan/levelling.hpp"
 #include "core/scan/scan_cutter.hpp"
 #include "core/simd/simd_path.hpp"
+#include "daemon/result.hpp"
 #include "drivers/velodyne/decoder.hpp"
 
 namespace convexcut::bench {
@@ -132,8 +139,7 @@ template <class Run>
 void add(const std::string& name, Run run) {
   for (const double missing : {0.0, 0.25}) {
     Stages& stages = stages_of(missing);
-    add(name + (missing == 0.0 ? "/room" : "/outdoors"),
-        static_cast<double>(stages.input.returns),
+    add(name + (missing == 0.0 ? "/room" : "/outdoors"), static_cast<double>(stages.input.returns),
         [run, &stages] { return timed([&] { run(stages); }); });
   }
 }
@@ -153,6 +159,43 @@ void add_all() {
   });
 }
 
+// From a result's commit in one thread to another's that has slept in wait() for it.
+void add_hand_off() {
+  struct HandOff {
+    daemon::ResultRing ring{4};
+    std::atomic<bool> stop{false};
+    std::atomic<std::int64_t> taken_ns{0};  // steady clock; 0: not yet
+    std::thread consumer{[this] {
+      while (!stop.load(std::memory_order_relaxed)) {  // ends the loop, publishes nothing
+        ring.wait(std::chrono::milliseconds{20});
+        ring.consume([this](daemon::Result&) noexcept {
+          taken_ns.store(steady_ns(), std::memory_order_release);  // pairs with the load below
+        });
+      }
+    }};
+    static std::int64_t steady_ns() {
+      return std::chrono::steady_clock::now().time_since_epoch().count();
+    }
+    ~HandOff() {
+      stop.store(true, std::memory_order_relaxed);
+      consumer.join();
+    }
+  };
+  add("hand_off_to_publisher", 1.0, [shared = std::make_shared<HandOff>()] {
+    shared->taken_ns.store(0, std::memory_order_relaxed);
+    std::this_thread::sleep_for(std::chrono::microseconds{200});  // the consumer sleeps again
+    static_cast<void>(shared->ring.claim());
+    const std::int64_t begin = HandOff::steady_ns();
+    shared->ring.commit();
+    std::int64_t taken = 0;
+    while (taken == 0) {
+      std::this_thread::yield();
+      taken = shared->taken_ns.load(std::memory_order_acquire);  // pairs with the consumer's store
+    }
+    return static_cast<double>(taken - begin) * 1e-9;
+  });
+}
+
 // Convex Cut of a revolution in a furnished room, seen by a tilted rig; in packets.
 struct Labelling {
   explicit Labelling(double tilt_deg) : cloud(room_cloud(kFirings, tilt_deg)) {}
@@ -163,10 +206,25 @@ struct Labelling {
   std::vector<Label> labels = std::vector<Label>(cloud.x.size());
   ConvexCutEngine engine{{}, cloud.x.size(), 1};
   StreamingCut streaming{{}, cloud.x.size()};
+  ShellIndex index{ConvexCutParameters{}.half_width_m, cloud.x.size(), 1};
+  SliceWorker worker{{}, cloud.x.size()};
+  PlaneGroups planes{ConvexCutParameters{}.planes};
 
   [[nodiscard]] CloudView first(std::size_t count) const {
     const CloudView all = cloud.view();
     return {all.x.first(count), all.y.first(count), all.z.first(count)};
+  }
+  void do_slices() {
+    worker.begin(index, check_cloud(cloud.view(), cloud.x.size()).extent_m);
+    for (std::uint32_t i = 0; i < ConvexCutParameters{}.planes; ++i) {
+      worker.process(planes.plane(i), planes.windows(i));
+    }
+  }
+  void write_labels() {
+    const std::span<const std::uint8_t> marks = worker.marks();
+    for (std::size_t i = 0; i < index.size(); ++i) {
+      labels[index.source(i)] = static_cast<Label>(marks[i]);
+    }
   }
   // All packets but the last.
   void stream() {
@@ -180,8 +238,15 @@ struct Labelling {
 void add_labelling() {
   for (const int tilt_deg : {0, 30, 60}) {
     const auto shared = std::make_shared<Labelling>(tilt_deg);
+    shared->index.build(shared->cloud.view());
+    shared->do_slices();
     const std::string tilt = "/tilt" + std::to_string(tilt_deg);
     const auto returns = static_cast<double>(shared->cloud.x.size());
+    add("order" + tilt, returns,
+        [shared] { return timed([&] { shared->index.build(shared->cloud.view()); }); });
+    add("slices" + tilt, returns, [shared] { return timed([&] { shared->do_slices(); }); });
+    add("write_labels" + tilt, returns,
+        [shared] { return timed([&] { shared->write_labels(); }); });
     add("batch" + tilt, returns, [shared] {
       return timed([&] {
         benchmark::DoNotOptimize(shared->engine.label(shared->cloud.view(), shared->labels));
@@ -216,6 +281,7 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("simd", std::string(convexcut::simd_path()));
   convexcut::bench::add_all();
   convexcut::bench::add_labelling();
+  convexcut::bench::add_hand_off();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

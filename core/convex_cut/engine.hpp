@@ -30,9 +30,10 @@ class ConvexCutEngine {
   ConvexCutEngine(const ConvexCutParameters& parameters, std::size_t max_points, unsigned threads);
 
   // Labels every point of a cloud in frame level. One thread at a time. On any answer but `ok` no
-  // label has been written. plane_stride ≥ 1: only the planes 0, s, 2s, … cut; where s divides
-  // their number, that is exactly Convex Cut with that many planes less. RT: no allocation, no
-  // lock; a system call only to wake the team.
+  // label has been written. plane_stride ≥ 1: only the planes 0, s, 2s, … cut; where s is a power
+  // of two that divides their number, that is exactly Convex Cut with that many planes less (else
+  // their angles may be rounded differently). RT: no allocation, no lock; a system call only to
+  // wake the team.
   [[nodiscard]] CutStatus label(const CloudView& cloud, std::span<Label> labels,
                                 std::uint32_t plane_stride = 1) noexcept;
 

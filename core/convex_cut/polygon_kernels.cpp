@@ -131,8 +131,8 @@ HWY_INLINE Pair load_with_depth(const EdgeColumns& edges, std::size_t edge_count
     const Float normal_u = hn::Set(df, edges.normal_u[k]);
     const Float normal_z = hn::Set(df, edges.normal_z[k]);
     const Float offset = hn::Set(df, edges.offset[k]);
-    p.depth0 = hn::Min(p.depth0, hn::MulAdd(normal_u, p.u0, hn::MulSub(normal_z, p.z0, offset)));
-    p.depth1 = hn::Min(p.depth1, hn::MulAdd(normal_u, p.u1, hn::MulSub(normal_z, p.z1, offset)));
+    p.depth0 = least_of(p.depth0, hn::MulAdd(normal_u, p.u0, hn::MulSub(normal_z, p.z0, offset)));
+    p.depth1 = least_of(p.depth1, hn::MulAdd(normal_u, p.u1, hn::MulSub(normal_z, p.z1, offset)));
   }
   return p;
 }
@@ -261,7 +261,7 @@ void farthest_outside(const EdgeColumns edges, const SliceColumns members, std::
     for (std::size_t i = 0; i < count; ++i) {
       const Float depth = hn::MulAdd(normal_u, hn::Set(df, members.u[i]),
                                      hn::MulSub(normal_z, hn::Set(df, members.z[i]), offset));
-      least = hn::Min(least, tagged(depth, hn::Set(dw, static_cast<std::uint32_t>(i)), keep));
+      least = least_of(least, tagged(depth, hn::Set(dw, static_cast<std::uint32_t>(i)), keep));
     }
     const Word tag = hn::And(hn::BitCast(dw, least), hn::Set(dw, tag_mask));
     const auto is_found = hn::RebindMask(dw, hn::Lt(least, outside));

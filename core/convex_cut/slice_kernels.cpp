@@ -88,15 +88,24 @@ std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
 // least point. Those that lean a little from u and z find the outermost noise at both ends of
 // walls, floor and ceiling: the polygon then hugs them, and few points are left outside of it.
 constexpr std::size_t kAxes = kExtremes / 2;
-struct Axis {
-  float u;
-  float z;
-};
-constexpr float kLean = 1.0F / 16.0F;
-constexpr std::array<Axis, kAxes> kDirections{
-    {{1, 0}, {1, kLean}, {1, 1}, {kLean, 1}, {0, 1}, {-kLean, 1}, {-1, 1}, {-1, kLean}}};
+HWY_INLINE void along_axes(Float u, Float z, Float* HWY_RESTRICT values) noexcept {
+  const Float lean = hn::Set(Floats(), 1.0F / 16.0F);
+  const Float some_u = hn::Mul(u, lean);
+  const Float some_z = hn::Mul(z, lean);
+  values[0] = u;
+  values[1] = hn::Add(u, some_z);
+  values[2] = hn::Add(u, z);
+  values[3] = hn::Add(some_u, z);
+  values[4] = z;
+  values[5] = hn::Sub(z, some_u);
+  values[6] = hn::Sub(z, u);
+  values[7] = hn::Sub(some_z, u);
+}
+
 // The vectors of members are numbered: a value is tagged with its vector's number.
-constexpr std::size_t kMostVectors = 1U << 11U;
+// When there are more than can be numbered, only one in so many is looked at; and of single members
+// on the baseline path, which would spend half of its time here.
+constexpr std::size_t kMostVectors = HWY_TARGET == HWY_SCALAR ? 1U << 7U : 1U << 11U;
 
 // The member that the best of the lanes' tagged values names.
 HWY_INLINE std::uint32_t tagged_member(Float tagged_values, Float best, std::uint32_t tag_mask,
@@ -131,12 +140,12 @@ Extremes extremes(const SliceColumns members, std::size_t count) {
     const Float u = hn::LoadU(df, members.u + i);
     const Float z = hn::LoadU(df, members.z + i);
     const Word tag = hn::Set(dw, number);
+    Float values[kAxes];
+    along_axes(u, z, values);
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
-      const Float value = hn::MulAdd(u, hn::Set(df, kDirections[axis].u),
-                                     hn::Mul(z, hn::Set(df, kDirections[axis].z)));
-      const Float numbered = tagged(value, tag, keep);
-      most[axis] = hn::Max(most[axis], numbered);
-      least[axis] = hn::Min(least[axis], numbered);
+      const Float numbered = tagged(values[axis], tag, keep);
+      most[axis] = most_of(most[axis], numbered);
+      least[axis] = least_of(least[axis], numbered);
     }
   }
   Extremes found{};

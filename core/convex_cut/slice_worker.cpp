@@ -19,7 +19,7 @@ constexpr float kDepthErrorPerExtent = 2e-6F;
 
 // With more candidates or more rounds of widening, the exact hull of the candidates is quicker.
 constexpr std::size_t kMostCandidates = 1024;
-constexpr int kMostRounds = 4;
+constexpr int kMostRounds = 6;
 
 // The reference's decision: any edge of the hull within the distance.
 [[nodiscard]] bool near_boundary(const SlicePoint& point, const Polygon& hull,

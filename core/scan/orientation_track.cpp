@@ -88,7 +88,7 @@ Orientation OrientationTrack::at(HostTime time) const noexcept {
 }
 
 OrientationTrack::Turn OrientationTrack::turn_between(const Sample& from,
-                                                     const Sample& to) noexcept {
+                                                      const Sample& to) noexcept {
   Quaternion turn = from.rotation.conjugate() * to.rotation;
   if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
   const double sine = turn.vec().norm();

@@ -29,8 +29,9 @@ struct CloudColumns {
   std::span<float> z;
 };
 
-// In the order of the runs. What is behind a run's end is undefined until the next run begins there:
-// each `to` is the end of the run before it, or behind. RT: no allocation, no lock, no system call.
+// In the order of the runs. What is behind a run's end is undefined until the next run begins
+// there: each `to` is the end of the run before it, or behind. RT: no allocation, no lock, no
+// system call.
 void rotate(std::span<const RotatedRun> runs, const CloudView& from,
             const CloudColumns& to) noexcept;
 

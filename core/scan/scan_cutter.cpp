@@ -170,8 +170,7 @@ void ScanCutter::copy_run(const ReturnBatch& batch) noexcept {
   const std::int64_t batch_after_scan = (batch_time_ - scan_.first_firing).count();
   for (std::uint32_t& time_ns : std::span(scan_.time_ns).subspan(first)) {
     // Negative only in batches that overlap.
-    time_ns =
-        static_cast<std::uint32_t>(std::max<std::int64_t>(batch_after_scan + time_ns, 0));
+    time_ns = static_cast<std::uint32_t>(std::max<std::int64_t>(batch_after_scan + time_ns, 0));
   }
   run_begin_ = run_end_ = 0;
 }

@@ -27,6 +27,22 @@ using Float = hn::Vec<Floats>;
 using Word = hn::Vec<Words>;
 using Mask = hn::Mask<Floats>;
 
+// Minimum and maximum of numbers. Highway's scalar ones ask for NaNs first, with branches.
+HWY_INLINE Float least_of(Float a, Float b) noexcept {
+#if HWY_TARGET == HWY_SCALAR
+  return Float(a.raw < b.raw ? a.raw : b.raw);
+#else
+  return hn::Min(a, b);
+#endif
+}
+HWY_INLINE Float most_of(Float a, Float b) noexcept {
+#if HWY_TARGET == HWY_SCALAR
+  return Float(a.raw > b.raw ? a.raw : b.raw);
+#else
+  return hn::Max(a, b);
+#endif
+}
+
 HWY_INLINE std::uint64_t to_bits(Mask mask) noexcept {
   std::uint64_t bits = 0;
   std::uint8_t bytes[8] = {};
@@ -47,7 +63,7 @@ HWY_INLINE Mask from_bits(std::uint64_t bits) noexcept {
 // Moves the lanes of a mask to the front of any number of vectors.
 class Compressor {
  public:
-#if HWY_TARGET == HWY_AVX2
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4
   // Highway 1.0's own table is copied to the stack at every use by GCC 12: four times as slow.
   HWY_INLINE explicit Compressor(Mask mask) noexcept
       : order_(

@@ -36,7 +36,8 @@ HWY_INLINE void unpack(wire::Bytes block, BlockReturns& out) noexcept {
   const hn::FixedTag<std::uint8_t, 16> bytes;
   const hn::Repartition<std::uint16_t, decltype(bytes)> shorts;
   static_assert(wire_layout::kReturnSize == 3 && wire_layout::kReturnIntensity == 2);
-  const auto* from = reinterpret_cast<const std::uint8_t*>(block.data()) + wire_layout::kBlockReturns;
+  const auto* from =
+      reinterpret_cast<const std::uint8_t*>(block.data()) + wire_layout::kBlockReturns;
   for (std::size_t i = 0; i < kReturns; i += 16) {
     hn::Vec<decltype(bytes)> low;
     hn::Vec<decltype(bytes)> high;
@@ -77,14 +78,12 @@ HWY_INLINE Direction sin_cos_of(Double azimuth_udeg) noexcept {
   constexpr double kDegree = 1e6;
   // Half a microdegree more than half a degree: no azimuth is near enough to a tie for the
   // reciprocal's error to matter.
-  const Double nearest = hn::Floor(hn::Mul(
-      hn::Add(azimuth_udeg, hn::Set(dd, kDegree / 2 + 0.5)), hn::Set(dd, 1.0 / kDegree)));
-  const Double rest =
-      hn::Mul(hn::Sub(azimuth_udeg, hn::Mul(nearest, hn::Set(dd, kDegree))),
-              hn::Set(dd, std::numbers::pi / 180.0 / kDegree));
+  const Double nearest = hn::Floor(
+      hn::Mul(hn::Add(azimuth_udeg, hn::Set(dd, kDegree / 2 + 0.5)), hn::Set(dd, 1.0 / kDegree)));
+  const Double rest = hn::Mul(hn::Sub(azimuth_udeg, hn::Mul(nearest, hn::Set(dd, kDegree))),
+                              hn::Set(dd, std::numbers::pi / 180.0 / kDegree));
   const Double rest2 = hn::Mul(rest, rest);
-  const Double sin =
-      hn::Sub(rest, hn::Mul(hn::Mul(rest, rest2), hn::Set(dd, 1.0 / 6.0)));
+  const Double sin = hn::Sub(rest, hn::Mul(hn::Mul(rest, rest2), hn::Set(dd, 1.0 / 6.0)));
   const Double cos = hn::Add(hn::Sub(hn::Set(dd, 1.0), hn::Mul(rest2, hn::Set(dd, 0.5))),
                              hn::Mul(hn::Mul(rest2, rest2), hn::Set(dd, 1.0 / 24.0)));
   const Direction base = whole_degrees(nearest);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The loops over the 32 returns of a block, written once and compiled for every instruction set
-// (Highway, chosen when first called). Products and sums are rounded one by one, in double, on every
-// path: all give the same bits. RT: no allocation, no lock, no system call.
+// (Highway, chosen when first called). Products and sums are rounded one by one, in double, on
+// every path: all give the same bits. RT: no allocation, no lock, no system call.
 #pragma once
 
 #include <array>

@@ -121,8 +121,7 @@ void DataDecoder::decode_blocks(wire::Bytes payload, ReturnBatch& out) const noe
 Firing& DataDecoder::begin_firing(const Block& block, std::size_t first_slot,
                                   ReturnBatch& out) const noexcept {
   Firing& firing = out.firings[out.firing_count++];
-  const std::int64_t turned =
-      (block.step_udeg * share_q32_[first_slot] + kOneQ32 / 2) >> 32;
+  const std::int64_t turned = (block.step_udeg * share_q32_[first_slot] + kOneQ32 / 2) >> 32;
   firing.azimuth = Azimuth::from_microdegrees(block.azimuth_udeg + turned);
   firing.offset_ns = block.start_ns + slots_.time_ns[first_slot];
   firing.first_return = out.return_count;

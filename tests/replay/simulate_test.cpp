@@ -168,7 +168,8 @@ TEST_F(Simulate, WrongArgumentsAreRefusedInOneLine) {
 }
 
 TEST_F(Simulate, AFullDiskLeavesNothing) {
-  const ProgramResult run = simulate({"--seconds", "1"}, {.terminate_at = {}, .file_size_bytes = 300'000});
+  const ProgramResult run =
+      simulate({"--seconds", "1"}, {.terminate_at = {}, .file_size_bytes = 300'000});
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.error_lines(), 1U) << run.err;
   EXPECT_TRUE(left_nothing());

@@ -14,7 +14,8 @@ constexpr float kOffM = 0.014F;            // the wall itself is flatter than th
 constexpr std::size_t kLeastCells = 3;
 constexpr std::uint32_t kLargeSurfels = 60;  // of a wall; smaller ones have no sure face
 constexpr float kBinM = 0.004F;
-constexpr std::size_t kBins = 41;  // ±8 cm
+constexpr std::size_t kBins = 41;   // ±8 cm
+constexpr float kFaceShare = 0.4F;  // relative to the height that most cells have
 constexpr float kToFloorM = 0.4F;
 constexpr float kDoorHeightM = 1.5F;
 constexpr float kRoomHighM = 2.2F;  // a layer as high as that is a part of the wall
@@ -26,7 +27,7 @@ constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
   return cell.height_sum_m / static_cast<float>(cell.points);
 }
 
-// The height over the plane that most cells have.
+// The rearmost height over the plane that many cells have: a wall may be covered for the most part.
 [[nodiscard]] float face_of(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
   std::array<std::int32_t, kBins> cells{};
   for (std::int32_t row = 0; row < grid.rows; ++row) {
@@ -40,15 +41,20 @@ constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
       }
     }
   }
-  std::size_t best = kBins / 2;
+  const auto around = [&](std::size_t bin) {
+    return cells.at(bin - 1) + 2 * cells.at(bin) + cells.at(bin + 1);
+  };
   std::int32_t most = 0;
-  for (std::size_t bin = 1; bin + 1 < kBins; ++bin) {
-    const std::int32_t around = cells.at(bin - 1) + 2 * cells.at(bin) + cells.at(bin + 1);
-    if (around > most) {
-      most = around;
+  for (std::size_t bin = 1; bin + 1 < kBins; ++bin) most = std::max(most, around(bin));
+  std::size_t best = kBins / 2;
+  for (std::size_t bin = kBins - 2; bin > 0; --bin) {
+    const bool is_peak = around(bin) >= around(bin - 1 > 0 ? bin - 1 : bin) &&
+                         around(bin) >= around(bin + 2 < kBins ? bin + 1 : bin);
+    if (is_peak && static_cast<float>(around(bin)) >= kFaceShare * static_cast<float>(most)) {
       best = bin;
     }
   }
+  if (most == 0) best = kBins / 2;
   return (static_cast<float>(best) - static_cast<float>(kBins / 2)) * kBinM;
 }
 

@@ -22,6 +22,7 @@ constexpr float kVertical = 0.35F;
 // A variance along the plane below this is one line of points, which has no normal.
 constexpr double kLine2 = 0.02;
 constexpr double kMostWeight = 20.0;
+constexpr float kRefineReachM = 0.3F;
 
 [[nodiscard]] std::optional<Plane> plane_through(const Surfel& surfel) noexcept {
   Vec3f n = surfel.direction;
@@ -108,14 +109,18 @@ Plane PlaneSearch::best_trial(const Model& model) noexcept {
   return best;
 }
 
-std::uint32_t PlaneSearch::refine(const Model& model, Plane& plane) const noexcept {
+std::uint32_t PlaneSearch::refine(const Model& model, Plane& plane) noexcept {
+  near_.clear();
+  for (const std::uint32_t i : left_) {
+    if (std::abs(plane.height_of(model.surfels[i].mean)) < kRefineReachM) near_.push_back(i);
+  }
   std::uint32_t count = 0;
   for (const float gate_m : {0.10F, 0.07F, 0.05F, 0.04F}) {
     double weight = 0.0;
     Vec3 sum = Vec3::Zero();
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
     count = 0;
-    for (const std::uint32_t i : left_) {
+    for (const std::uint32_t i : near_) {
       const Surfel& surfel = model.surfels[i];
       if (!agrees(surfel, plane, gate_m)) continue;
       const double w = weight_of(surfel);

@@ -26,19 +26,23 @@ class PlaneSearch {
  public:
   static constexpr std::size_t kMostPlanes = 48;
 
-  explicit PlaneSearch(std::size_t max_surfels) { left_.reserve(max_surfels); }
+  explicit PlaneSearch(std::size_t max_surfels) {
+    left_.reserve(max_surfels);
+    near_.reserve(max_surfels);
+  }
 
   // Fills model.planes and the planes of the surfels. The same trials on every call.
   void run(Model& model, const Vec3f& origin) noexcept;
 
  private:
   [[nodiscard]] Plane best_trial(const Model& model) noexcept;
-  [[nodiscard]] std::uint32_t refine(const Model& model, Plane& plane) const noexcept;
+  [[nodiscard]] std::uint32_t refine(const Model& model, Plane& plane) noexcept;
   void claim(Model& model, const Plane& plane) noexcept;
   void drop_near(const Model& model, const Plane& plane) noexcept;
   [[nodiscard]] std::size_t random_left() noexcept;
 
   std::vector<std::uint32_t> left_;  // surfels without a plane
+  std::vector<std::uint32_t> near_;  // of these, those near the plane that is refined
   std::uint64_t random_ = 0;
 };
 

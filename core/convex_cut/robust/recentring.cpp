@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/convex_cut/robust/shape.hpp"
-
 namespace convexcut::robust {
 namespace {
 
@@ -18,7 +16,7 @@ constexpr float kTiltSigma = 0.01F;  // radians
 }  // namespace
 
 Plane recentred(const Model& model, const PlaneGrids& grids, std::size_t k,
-                const VoxelMap& revolution) noexcept {
+                std::span<const Surfel> revolution) noexcept {
   const Plane& known = model.planes[k];
   const PlaneGrid& grid = grids.grid(k);
   const Vec3f middle = grid.centre(known, grid.columns / 2, grid.rows / 2);
@@ -29,12 +27,12 @@ Plane recentred(const Model& model, const PlaneGrids& grids, std::size_t k,
   for (const float gate_m : {0.10F, 0.07F, 0.05F}) {
     Mat3f information = prior.asDiagonal();
     Vec3f gradient = Vec3f::Zero();
-    for (const Voxel& voxel : revolution.voxels()) {
-      if (voxel.moments.count < kSupport) continue;
-      const Vec3f p = voxel.mean();
+    for (const Surfel& surfel : revolution) {
+      if (!surfel.supported) continue;
+      const Vec3f& p = surfel.mean;
       if (std::abs(plane.height_of(p)) > gate_m || !grids.is_structure(k, p, 0)) continue;
       const float weight = kIndependent / (kNoiseM * kNoiseM) *
-                           std::min(static_cast<float>(voxel.moments.count), kMostWeight);
+                           std::min(static_cast<float>(surfel.points), kMostWeight);
       const Vec3f j(1.0F, grid.along.dot(p - middle), grid.up.dot(p - middle));
       information += weight * j * j.transpose();
       gradient -= weight * known.height_of(p) * j;

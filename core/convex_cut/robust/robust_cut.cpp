@@ -100,6 +100,7 @@ RobustCut::RobustCut(const RobustParameters& parameters, std::size_t max_points)
   model_.planes.reserve(robust::PlaneSearch::kMostPlanes);
   model_.segments.reserve(kMostSegments);
   centred_planes_.reserve(robust::PlaneSearch::kMostPlanes);
+  revolution_surfels_.reserve(std::min(max_points, kMostVoxels));
   near_.reserve(std::min(max_points, kMostVoxels));
 }
 
@@ -222,10 +223,18 @@ void RobustCut::find_structure() noexcept {
 
 void RobustCut::recentre() noexcept {
   centred_planes_.clear();
+  revolution_surfels_.clear();
+  for (const Voxel& voxel : revolution_.voxels()) {
+    Surfel surfel;
+    surfel.mean = voxel.mean();
+    surfel.points = voxel.moments.count;
+    surfel.supported = voxel.moments.count >= robust::kSupport;
+    revolution_surfels_.push_back(surfel);
+  }
   for (std::size_t k = 0; k < model_.planes.size(); ++k) {
     const Plane& plane = model_.planes[k];
     centred_planes_.push_back(parameters_.recentre && plane.accepted
-                                  ? robust::recentred(model_, grids_, k, revolution_)
+                                  ? robust::recentred(model_, grids_, k, revolution_surfels_)
                                   : plane);
   }
 }

@@ -91,9 +91,10 @@ class RobustCut {
   robust::Fixtures fixtures_;
   robust::Mirrors mirrors_;
   robust::Curved curved_;
-  std::span<const std::uint8_t> is_curved_;    // by surfel
-  std::vector<robust::Plane> centred_planes_;  // as the revolution at hand shows them
-  std::vector<Near> near_;                     // by voxel of the revolution
+  std::span<const std::uint8_t> is_curved_;         // by surfel
+  std::vector<robust::Plane> centred_planes_;       // as the revolution at hand shows them
+  std::vector<robust::Surfel> revolution_surfels_;  // by voxel of the revolution: mean, points
+  std::vector<Near> near_;                          // by voxel of the revolution
   robust::RigPose pose_;
   std::optional<Vec3> given_position_m_;  // of the last revolution
   float structure_share_ = 0.0F;          // of the last revolution's points

@@ -140,9 +140,8 @@ TEST(OrientationTrack, ClearedTrackTakesEarlierTimes) {
 TEST(OrientationTrack, InterpolationIsThatOfSlerpForAnyTurn) {
   for (double degrees = 0.0; degrees < 180.0; degrees += 7.5) {
     const Quaternion from = to_quaternion({Degrees{10}, Degrees{-20}, Degrees{30}});
-    const Quaternion to =
-        from * Quaternion(Eigen::AngleAxisd(Degrees{degrees}.to_radians().value,
-                                            Vec3(1, 2, -2).normalized()));
+    const Quaternion to = from * Quaternion(Eigen::AngleAxisd(Degrees{degrees}.to_radians().value,
+                                                              Vec3(1, 2, -2).normalized()));
     OrientationTrack track(4);
     track.push(kStart, from);
     track.push(kStart + 40ms, to);

@@ -252,11 +252,12 @@ TEST_F(Writer, TsharkReadsTheSameAndFindsTheIpChecksumGood) {
   CaptureWriter writer(file(), LinkKind::ethernet);
   writer.write(datagram(text("hi")));
   writer.close();
-  EXPECT_EQ(test::output_of("tshark -r " + file().string() +
+  EXPECT_EQ(
+      test::output_of("tshark -r " + file().string() +
                       " -o ip.check_checksum:TRUE -T fields -e frame.time_epoch -e ip.src -e ip.dst"
                       " -e ip.checksum.status -e udp.srcport -e udp.dstport -e data.data"
                       " -E separator=, 2>/dev/null"),
-            "1700000000.123456789,192.168.1.201,255.255.255.255,1,2368,8308,6869\n");
+      "1700000000.123456789,192.168.1.201,255.255.255.255,1,2368,8308,6869\n");
 }
 
 }  // namespace

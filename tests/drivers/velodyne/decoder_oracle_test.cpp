@@ -129,9 +129,10 @@ std::vector<std::uint32_t> bits_of(const ReturnBatch& batch) {
       bits.push_back(std::bit_cast<std::uint32_t>(value));
     }
     bits.push_back(batch.offset_ns[i]);
-    bits.push_back(static_cast<std::uint32_t>(batch.intensity[i] << 16U | batch.ring[i] << 8U |
-                                              static_cast<unsigned>(batch.echo[i]) << 1U |
-                                              static_cast<unsigned>(batch.farthest[i])));
+    bits.push_back(static_cast<std::uint32_t>(batch.intensity[i]) << 16U |
+                   static_cast<std::uint32_t>(batch.ring[i]) << 8U |
+                   static_cast<std::uint32_t>(batch.echo[i]) << 1U |
+                   static_cast<std::uint32_t>(batch.farthest[i]));
   }
   for (std::size_t i = 0; i < batch.firing_count; ++i) {
     bits.push_back(static_cast<std::uint32_t>(batch.firings[i].azimuth.microdegrees()));
@@ -160,8 +161,8 @@ TEST_P(DecoderOracle, EveryInstructionSetGivesTheSameBits) {
   }
 }
 
-// The kernels' lanes against the same arithmetic on one return, with whole microdegrees as integers:
-// the promise is one rounding to float and nothing else.
+// The kernels' lanes against the same arithmetic on one return, with whole microdegrees as
+// integers: the promise is one rounding to float and nothing else.
 TEST(DecoderBits, AreThoseOfTheFormulasInDouble) {
   const Model& model = model_of(ModelId::hdl32e);
   // NOLINTNEXTLINE(cert-msc32-c,cert-msc51-cpp)

@@ -62,7 +62,8 @@ class Builder {
                                  &Builder::slice_edge, &Builder::chord,  &Builder::circle,
                                  &Builder::lattice,    &Builder::mirror, &Builder::scatter,
                                  &Builder::rescale};
-    // Small clouds are tried more often in the same time; large ones have more candidates for a hull.
+    // Small clouds are tried more often in the same time; large ones have more candidates for a
+    // hull.
     most_ = read_.byte() % 8U == 0 ? kMaxFuzzedPoints : kMaxFuzzedPoints / 6;
     while (!read_.at_end() && made_.cloud.size() < most_) {
       (this->*kShapes[read_.byte() % kShapes.size()])();
@@ -85,7 +86,8 @@ class Builder {
     const std::size_t back = read_.byte();
     if (cloud.size() == 0) return {};
     const std::size_t i = cloud.size() - 1 - std::min(back, cloud.size() - 1);
-    return {static_cast<double>(cloud.x[i]), static_cast<double>(cloud.y[i]), static_cast<double>(cloud.z[i])};
+    return {static_cast<double>(cloud.x[i]), static_cast<double>(cloud.y[i]),
+            static_cast<double>(cloud.z[i])};
   }
 
   void point() {
@@ -199,13 +201,15 @@ class Builder {
   return labels;
 }
 
-// In two pieces at a quarter's and a half's end, then the rest: some slices are done early, and again.
+// In two pieces at a quarter's and a half's end, then the rest: some slices are done early, and
+// again.
 [[nodiscard]] bool streaming_differs(const FuzzedCloud& input, const std::vector<Label>& expected) {
   const CloudView all = input.cloud.view();
   StreamingCut cut(input.parameters, all.size());
   cut.begin();
   for (const std::size_t end : {all.size() / 4, all.size() / 2}) {
-    if (cut.add({all.x.first(end), all.y.first(end), all.z.first(end)}) != CutStatus::ok) return true;
+    if (cut.add({all.x.first(end), all.y.first(end), all.z.first(end)}) != CutStatus::ok)
+      return true;
   }
   std::vector<Label> labels(all.size(), Label::structure);
   return cut.finish(all, labels) != CutStatus::ok || labels != expected;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Any bytes as parameters and a cloud for Convex Cut, of the kinds that are hard for it: points on a
-// line, in one place, on the border of a slice, at the hull distance, on a circle, in a lattice.
+// Any bytes as parameters and a cloud for Convex Cut, of the kinds that are hard for it: points on
+// a line, in one place, on the border of a slice, at the hull distance, on a circle, in a lattice.
 #pragma once
 
 #include <cstddef>
