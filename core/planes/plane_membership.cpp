@@ -60,8 +60,7 @@ void PlaneMembership::gather_candidates(std::size_t cell,
                          regions_.begin() + std::next(found)->first_region);
   }
   std::ranges::sort(near_regions_);
-  const auto [repeated, end] = std::ranges::unique(near_regions_);
-  near_regions_.erase(repeated, end);
+  near_regions_.erase(std::unique(near_regions_.begin(), near_regions_.end()), near_regions_.end());
 
   candidates_.clear();
   const auto here_begin = regions_.begin() + cells_[cell].first_region;

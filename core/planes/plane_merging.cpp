@@ -100,8 +100,7 @@ bool PlaneMerger::join_regions() {
     if (a != b) region_pairs_.push_back({std::min(a, b), std::max(a, b)});
   }
   std::ranges::sort(region_pairs_);
-  const auto [repeated, end] = std::ranges::unique(region_pairs_);
-  region_pairs_.erase(repeated, end);
+  region_pairs_.erase(std::unique(region_pairs_.begin(), region_pairs_.end()), region_pairs_.end());
   joined_into_.resize(regions_.size());
   std::iota(joined_into_.begin(), joined_into_.end(), 0U);
   const auto root = [this](std::uint32_t region) {
