@@ -1,12 +1,17 @@
 # convexcut_library(NAME SOURCES a.cpp b.cpp LIBS x y): a static library of this project. Headers are
-# included by their path from the root: #include "core/clock/hour_clock.hpp".
+# included by their path from the root: #include "core/clock/hour_clock.hpp". Reading headers is most of what a file
+# costs to compile, so with CONVEXCUT_UNITY it is done once for six files; APART: not here, as files share local names or
+# are compiled once for each instruction set.
 function(convexcut_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;PRIVATE_LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "APART" "" "SOURCES;LIBS;PRIVATE_LIBS" ${ARGN})
   if(ARG_SOURCES)
     add_library(${name} STATIC ${ARG_SOURCES})
     convexcut_compiler_options(${name} PRIVATE)
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${ARG_LIBS} PRIVATE ${ARG_PRIVATE_LIBS})
+    if(CONVEXCUT_UNITY AND NOT ARG_APART)
+      set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    endif()
   else()
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR})
@@ -46,7 +51,8 @@ function(convexcut_test name)
                          PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}")
   else()
     add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
+    set_tests_properties(${name} PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}"
+                         ENVIRONMENT CONVEXCUT_TEST_PERCENT=${CONVEXCUT_TEST_PERCENT})
   endif()
 endfunction()
 

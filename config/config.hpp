@@ -36,6 +36,7 @@ struct Lidar {
   std::string multicast_group;  // IPv4 group that the sensor sends to; empty: none
   std::string interface;        // network interface that is listened on; empty: any
   std::int64_t receive_buffer_kib = 8192;
+  std::int64_t gather_us = 1000;  // that packets wait to be taken together
   double min_range_m = 0.5;
   double max_range_m = 100.0;
   Degrees cut_azimuth{0.0};

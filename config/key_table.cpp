@@ -65,6 +65,9 @@ constexpr std::array kKeys{
     bind_key<&Config::lidar, &Lidar::receive_buffer_kib>(
         "lidar.receive_buffer_kib", Integer{64, 1'048'576}, "KiB",
         "Receive buffer of the data port; 8192 hold packets for seconds."),
+    bind_key<&Config::lidar, &Lidar::gather_us>(
+        "lidar.gather_us", Integer{0, 5'000}, "µs",
+        "Packets that come within this time are taken together: fewer wake-ups; 0: each at once."),
     bind_key<&Config::lidar, &Lidar::min_range_m>("lidar.min_range_m", Number{0.0, 200.0}, "m",
                                                   "Nearer returns are dropped."),
     bind_key<&Config::lidar, &Lidar::max_range_m>("lidar.max_range_m", Number{0.0, 300.0}, "m",

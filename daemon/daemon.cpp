@@ -68,9 +68,11 @@ Daemon::Daemon(const DaemonOptions& options)
       inputs_(make_inputs(options, rings_, stop_)),
       worker_(realtime_.as(ThreadRole::worker,
                            [&] {
-                             return Worker(live_pipeline_options(options.config),
-                                           worker_options(options.config.worker), inputs_->clock(),
-                                           rings_.lidar, rings_.imu, rings_.encoder, results_);
+                             PipelineOptions pipeline = live_pipeline_options(options.config);
+                             pipeline.positions = recorded_positions(options.recordings);
+                             return Worker(pipeline, worker_options(options.config.worker),
+                                           inputs_->clock(), rings_.lidar, rings_.imu,
+                                           rings_.encoder, results_);
                            })),
       participant_(
           realtime_.as(ThreadRole::transport, [&] { return Participant(options.config.dds); })),
@@ -197,6 +199,8 @@ HealthCounters Daemon::health_counters() const {
   totals.empty_results = worker.empty_results.value();
   totals.late_results = scans_.counters().late.value();
   totals.dropped_scans = worker.dropped_scans.value() + worker.dropped_results.value();
+  totals.reduced_scans = worker.reduced_scans.value();
+  totals.unturned_scans = worker.unturned_scans.value();
   totals.points_without_orientation = worker.dropped_no_orientation.value();
   totals.late_packets = worker_.packets().late.value();
   totals.ring_overruns = rings_.overruns();
@@ -280,6 +284,7 @@ void Daemon::log_end() const {
                     {"imu_samples", totals.imu_samples},
                     {"lost_imu_samples", totals.lost_imu_samples},
                     {"scans", scans_.counters().published.value()},
+                    {"without_position", worker_.counters().scans_without_position.value()},
                     {"empty", worker_.counters().empty_results.value()},
                     {"late", scans_.counters().late.value()}});
 }

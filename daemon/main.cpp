@@ -36,9 +36,10 @@ int run(const Arguments& args) {
   options.rate = command_line::parse_rate(args.rate);
   options.recordings = args.recordings.paths;
   if (options.recordings.lidar.empty() &&
-      !(options.recordings.imu.empty() && options.recordings.can.empty())) {
+      !(options.recordings.imu.empty() && options.recordings.can.empty() &&
+        options.recordings.poses.empty())) {
     throw command_line::UsageError(
-        "expected --lidar FILE beside --imu or --can, or none of them to run live");
+        "expected --lidar FILE beside --imu, --can or --poses, or none of them to run live");
   }
   if (!args.record.empty()) {
     if (!options.recordings.lidar.empty()) {
@@ -62,6 +63,7 @@ int program(int argc, char** argv) {
   root.set_version_flag("--version", "convexcutd " CONVEXCUT_VERSION);
   Arguments args;
   args.recordings.add_to(root, false);
+  args.recordings.add_poses_to(root);
   args.config.add_to(root);
   root.add_option("--rate", args.rate, "Recorded seconds per second, or max (default 1)")
       ->type_name("X|max");

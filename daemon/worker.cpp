@@ -164,10 +164,13 @@ bool Worker::hand_over(HostTime now, Result& slot) noexcept {
   report(levelled - begun, done - levelled);
   slot.effort = effort_.effort();
   if (slot.effort != Effort::full) counters_.reduced_scans.add();
+  if (slot.scan.end == ScanEnd::timeout) counters_.unturned_scans.add();
   if (clock_.paced() && options_.reduce_effort) adapt_effort(used, now, slot.scan.last_firing);
   slot.scan.index = next_index_++;
   counters_.scans.add();
   counters_.dropped_no_orientation.add(slot.scan.dropped_no_orientation);
+  counters_.scans_without_position.add(pipeline_.scans_without_position() -
+                                       counters_.scans_without_position.value());
   return true;
 }
 

@@ -37,7 +37,9 @@ struct WorkerCounters {
   Counter dropped_results;         // the publisher was not keeping up
   Counter missed_instants;         // the worker was not keeping up
   Counter reduced_scans;           // computed with less than full effort
+  Counter unturned_scans;          // given out because no revolution ended in time
   Counter dropped_no_orientation;  // points
+  Counter scans_without_position;  // though there are poses
   Counter clock_steps;             // the host's clock was set
   Counter dropped_by_clock_step;   // packets and samples that were stamped before it
 };

@@ -18,6 +18,7 @@ struct Command {
 [[nodiscard]] Command add_process(CLI::App& root);
 [[nodiscard]] Command add_replay(CLI::App& root);
 [[nodiscard]] Command add_record(CLI::App& root);
+[[nodiscard]] Command add_simulate(CLI::App& root);
 [[nodiscard]] Command add_info(CLI::App& root);
 [[nodiscard]] Command add_watch(CLI::App& root);
 [[nodiscard]] Command add_picture(CLI::App& root);

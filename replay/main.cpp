@@ -21,10 +21,10 @@ int program(int argc, char** argv) {
   root.footer(
       "Exit status: 0 done, 1 failed while running, 2 wrong usage or configuration.\n"
       "Start with:  convexcut info --lidar lidar.pcap");
-  const std::array commands{replay::add_process(root), replay::add_record(root),
-                            replay::add_replay(root),  replay::add_info(root),
-                            replay::add_watch(root),   replay::add_picture(root),
-                            replay::add_evaluate(root)};
+  const std::array commands{replay::add_process(root),  replay::add_record(root),
+                            replay::add_replay(root),   replay::add_info(root),
+                            replay::add_watch(root),    replay::add_picture(root),
+                            replay::add_simulate(root), replay::add_evaluate(root)};
   return command_line::run_program(root, argc, argv, [&commands] {
     for (const replay::Command& command : commands) {
       if (command.app->parsed()) return command.run();

@@ -92,12 +92,18 @@ struct Totals {
 
 unsigned default_threads() { return std::clamp(std::thread::hardware_concurrency(), 1U, 4U); }
 
+daemon::PipelineOptions pipeline_options(const ProcessOptions& options, unsigned threads) {
+  daemon::PipelineOptions pipeline = daemon::pipeline_options(options.config, threads);
+  pipeline.positions = daemon::recorded_positions(options.recordings);
+  return pipeline;
+}
+
 class Run {
  public:
   explicit Run(const ProcessOptions& options)
       : options_(options),
         threads_(options.threads != 0 ? options.threads : default_threads()),
-        pipeline_(daemon::pipeline_options(options.config, threads_)),
+        pipeline_(pipeline_options(options, threads_)),
         lidar_input_(pipeline_),
         imu_input_(pipeline_),
         encoder_input_(pipeline_),
@@ -213,6 +219,11 @@ void Run::report() const {
         grouped(totals_.dropped_no_orientation).c_str(),
         grouped(totals_.scans_without_some_orientation).c_str());
   }
+  if (const std::uint64_t without = pipeline_.scans_without_position(); without > 0) {
+    std::fprintf(stderr, "warning: %s of %s scans have no position: no pose of %s is near them\n",
+                 grouped(without).c_str(), grouped(totals_.scans).c_str(),
+                 options_.recordings.poses.c_str());
+  }
   if (const std::size_t stale = writer_.stale_files(); stale > 0) {
     std::fprintf(stderr, "warning: %s still holds %zu scan files of an earlier run\n",
                  options_.out.c_str(), stale);
@@ -234,6 +245,7 @@ void Run::report() const {
         .add("late_packets", order.late.value())
         .add("dropped_no_orientation", totals_.dropped_no_orientation)
         .add("overflow_returns", totals_.overflow)
+        .add("scans_without_position", pipeline_.scans_without_position())
         .add("recorded_s", seconds(recorded_), 6)
         .add("elapsed_s", elapsed_.count(), 6)
         .add("times_real_time", rate, 2)

@@ -36,6 +36,7 @@ Command add_process(CLI::App& root) {
       "process", "Separate a whole recording into structure and the rest, one file a scan");
   const auto args = std::make_shared<Arguments>();
   args->recordings.add_to(*app, true);
+  args->recordings.add_poses_to(*app);
   args->config.add_to(*app);
   app->add_option("--out", args->out, "Directory for scan_000000.pcd … and scans.csv")
       ->type_name("DIR")

@@ -58,6 +58,15 @@ std::string remarks(const LevelledScan& scan, std::string_view mark) {
   return line.data();
 }
 
+// Points are relative to the lidar, in axes of the world: viewers put them where they belong.
+std::string position_text(const LevelledScan& scan) {
+  if (!scan.position_m) return "0 0 0";
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(), "%.6f %.6f %.6f", scan.position_m->x(),
+                scan.position_m->y(), scan.position_m->z());
+  return text.data();
+}
+
 std::string pcd_header(const LevelledScan& scan) {
   const std::string count = std::to_string(scan.size());
   return "# .PCD v0.7 - Point Cloud Data file format\n" + remarks(scan, "#") +
@@ -67,7 +76,8 @@ std::string pcd_header(const LevelledScan& scan) {
          "TYPE F F F U U U U\n"
          "COUNT 1 1 1 1 1 1 1\n"
          "WIDTH " +
-         count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
+         count + "\nHEIGHT 1\nVIEWPOINT " + position_text(scan) + " 1 0 0 0\nPOINTS " + count +
+         "\nDATA binary\n";
 }
 
 std::string ply_header(const LevelledScan& scan) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Labelled scans as files that other programs open: PCD v0.7 (binary), PLY (binary little-endian),
-// CSV. Fields `x y z intensity ring time label`: float32 metres in level; uint8; uint16 (0 = lowest
-// beam); uint32 ns after the scan's stamp; uint8 (0 = other, 1 = structure). Points in firing
-// order.
+// CSV. PCD's VIEWPOINT is the lidar's position where poses are known. Fields `x y z intensity ring
+// time label`: float32 metres in level; uint8; uint16 (0 = lowest beam); uint32 ns after the scan's
+// stamp; uint8 (0 = other, 1 = structure). Points in firing order.
 #pragma once
 
 #include <cstdint>

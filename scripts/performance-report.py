@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Turns the JSON of convex_cut_compare into a table, and with --write-docs into docs/performance.md
-and docs/images/performance.svg."""
+"""Turns the JSON of convex_cut_compare into a table: performance-report.py COMPARE [STAGES]. With
+that of stages_bench as well, writes docs/performance.md and its plots, docs/images/*.svg."""
 import json
 import math
 import pathlib
@@ -31,9 +31,35 @@ def table(cases):
     return "\n".join(lines)
 
 
-def plot(cases):
+# From the datagrams to the labels, in order; the peers are the plain decoder and the batch.
+STAGES = [("plain_decode", "decoder with point structures and tables (peer)"), ("plain_decode_level", "… and levelling"),
+          ("decode", "decode: datagrams to columns"), ("cut", "cut into scans"), ("level", "level by the IMU's track"),
+          ("level_fixed", "level a fixed mount"), ("order", "Convex Cut: order"), ("slices", "Convex Cut: cut, hull, keep"),
+          ("write_labels", "Convex Cut: write labels"), ("batch", "Convex Cut in all"),
+          ("streaming_after_last_firing", "Convex Cut streaming, after the last firing"),
+          ("streaming_in_all", "Convex Cut streaming, in all"), ("hand_off_to_publisher", "hand-off to the publisher")]
+
+
+def stage_table(stages):
+    times = {}
+    for benchmark in stages["benchmarks"]:
+        name = benchmark["run_name"].split("/iterations")[0]
+        times.setdefault(name, {"returns": benchmark["returns"]})[benchmark["aggregate_name"]] = benchmark["real_time"]
+    lines = ["| stage | input | p50 µs | p99 µs | max µs | ns a return |", "|---|---|---|---|---|---|"]
+    for stage, title in STAGES:
+        for name, time in times.items():
+            if name.split("/")[0] != stage:
+                continue
+            source = name.partition("/")[2].replace("tilt", "tilt ") + ("°" if "tilt" in name else "")
+            each = f"{1000 * time['p50'] / time['returns']:.2f}" if time["returns"] > 1 else ""
+            lines.append(f"| {title} | {source} | {time['p50']:.1f} | {time['p99']:.1f} | {time['max']:.1f} | {each} |")
+    return "\n".join(lines), times
+
+
+def plot(cases, tilt_deg, half_width_m):
     """Time against the number of points, both logarithmic."""
-    cases = sorted((c for c in cases if c["tilt_deg"] == 0 and c["half_width_m"] == 0.05), key=lambda c: c["points"])
+    cases = sorted((c for c in cases if c["tilt_deg"] == tilt_deg and c["half_width_m"] == half_width_m),
+                   key=lambda c: c["points"])
     width, height, left, bottom = 720, 420, 70, 50
     points = [c["points"] for c in cases]
     times = [c[f"{peer}_ms"] for c in cases for peer, _ in PEERS if f"{peer}_ms" in c]
@@ -52,7 +78,7 @@ def plot(cases):
         svg.append(f'<line x1="{left}" x2="{width - 20}" y1="{y(10 ** decade):.1f}" y2="{y(10 ** decade):.1f}" '
                    f'stroke="#eee"/><text x="{left - 8}" y="{y(10 ** decade) + 4:.1f}" text-anchor="end">'
                    f'{10.0 ** decade:g} ms</text>')
-    for value in points:
+    for value in (10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000):
         svg.append(f'<text x="{x(value):.1f}" y="{height - bottom + 18}" text-anchor="middle" '
                    f'font-size="10">{value / 1000:.0f}k</text>')
     svg.append(f'<text x="{(left + width) / 2}" y="{height - 10}" text-anchor="middle">points in the cloud</text>')
@@ -66,27 +92,44 @@ def plot(cases):
 
 def main():
     report = json.loads(pathlib.Path(sys.argv[1]).read_text())
-    print(table(report["cases"]))
+    # Of the many sizes, those with all peers.
+    rows = table([c for c in report["cases"] if "cgal_ms" in c or not c["name"].startswith("size_")])
+    print(rows)
     print()
     for key, value in report.items():
         if key.startswith("ratio"):
             print(f"{key} = {value}")
-    if "--write-docs" not in sys.argv[2:]:
+    if len(sys.argv) < 3:
         return
+    stages, times = stage_table(json.loads(pathlib.Path(sys.argv[2]).read_text()))
+    print(f"\n{stages}")
+    share = {tilt: times[f"streaming_after_last_firing/tilt{tilt}"]["p50"] / times[f"batch/tilt{tilt}"]["p50"]
+             for tilt in (0, 30, 60)}
     docs = pathlib.Path(__file__).resolve().parent.parent / "docs"
     (docs / "images").mkdir(exist_ok=True)
-    (docs / "images" / "performance.svg").write_text(plot(report["cases"]))
+    (docs / "images" / "performance.svg").write_text(plot(report["cases"], 0, 0.05))
     (docs / "performance.md").write_text(f"""# Performance of Convex Cut
 
 Written by `./bench.sh`: medians of runs that take turns, on a simulated furnished room seen by an HDL-32E, with 360 planes and
 e = 0.08 m; the engine with the instruction set `{report['simd']}`. Times are those of one machine; the ratios within the run are what
 counts. *Algorithm 1* is the paper's, literally: every plane looks at every point, takes the hull of its slice from a library and
-tests the slice's points against it. All label alike: the engine's labels differ from those of Algorithm 1 with Qhull in
+tests the slice's points against it. *Memory* is one pass over the cloud's coordinates: the floor of any method. All label alike: the
+engine's labels differ from those of Algorithm 1 with Qhull in
 {max(case['differing_labels'] for case in report['cases']):.0f} points at most.
 
 ![Time against the number of points](images/performance.svg)
 
-{table(report['cases'])}
+The plot has {sum(c['name'].startswith('size_') for c in report['cases'])} sizes from 10,000 to 3 million points, the table those at which all peers ran.
+
+{rows}
+
+## Stages
+
+Of one revolution on one thread, in turns and in one run, in microseconds. *room*: every return there, *outdoors*: a quarter missing.
+The time that remains after the last firing when Convex Cut streams is {share[0]:.2f} of the batch's time at tilt 0°, {share[30]:.2f} at 30° and
+{share[60]:.2f} at 60°, where beams reach below the sensor and with that into every slice.
+
+{stages}
 """)
 
 

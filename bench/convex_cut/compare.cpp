@@ -4,6 +4,7 @@
 // beside one pass over the cloud's memory, on the same clouds in the same run. Prints one JSON
 // object; bench.sh makes tables and plots of it.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -25,6 +26,12 @@ namespace {
 
 constexpr std::size_t kLasers = 32;
 constexpr std::size_t kFiringsPerRevolution = 2170;  // HDL-32E at 10 Hz
+
+// The paper's figure 6: as many sizes between the same bounds, here in equal ratios.
+constexpr std::size_t kSizes = 88;
+constexpr double kFewestPoints = 10'000;
+constexpr double kMostPoints = 3'000'000;
+constexpr std::size_t kSizesPerPeers = 10;  // all peers at every so manyth size
 
 struct Case {
   std::string name;
@@ -114,10 +121,14 @@ void print(const CaseResult& result, bool last) {
           {.name = name, .tilt_deg = tilt_deg, .parameters = {.half_width_m = half_width_m}});
     }
   }
-  for (const std::size_t firings : {313U, 1'000U, 1'563U, 3'125U, 6'250U, 15'625U, 31'250U}) {
-    all.push_back({.name = std::to_string(firings * kLasers / 1000) + "k",
+  for (std::size_t i = 0; i < kSizes; ++i) {
+    const double growth = static_cast<double>(i) / static_cast<double>(kSizes - 1);
+    const double points = kFewestPoints * std::pow(kMostPoints / kFewestPoints, growth);
+    const auto firings = static_cast<std::size_t>(std::lround(points / kLasers));
+    all.push_back({.name = "size_" + std::to_string(firings * kLasers),
                    .firings = firings,
-                   .rounds = firings < 5'000 ? 5U : 2U});
+                   .rounds = points < 200'000 ? 3U : 1U,
+                   .all_peers = i % kSizesPerPeers == 0});
   }
   all.push_back({.name = "3m", .firings = kThreeMillion, .rounds = 2});
   return all;

@@ -18,13 +18,15 @@ struct CloudCheck {
   float extent_m = 0.0F;  // the greatest magnitude of any coordinate, when the status is ok
 };
 
+[[nodiscard]] inline bool sizes_match(const CloudView& cloud, std::size_t label_count) noexcept {
+  const std::size_t n = cloud.size();
+  return cloud.y.size() == n && cloud.z.size() == n && label_count == n;
+}
+
 // Whether a cloud and its labels can be worked on at all.
 [[nodiscard]] inline CloudCheck check_cloud(const CloudView& cloud,
                                             std::size_t label_count) noexcept {
-  const std::size_t n = cloud.size();
-  if (cloud.y.size() != n || cloud.z.size() != n || label_count != n) {
-    return {CutStatus::size_mismatch};
-  }
+  if (!sizes_match(cloud, label_count)) return {CutStatus::size_mismatch};
   const std::uint32_t bits =
       std::max({greatest_magnitude_bits(cloud.x), greatest_magnitude_bits(cloud.y),
                 greatest_magnitude_bits(cloud.z)});

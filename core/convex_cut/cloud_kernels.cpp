@@ -2,6 +2,7 @@
 #include "core/convex_cut/cloud_kernels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "core/convex_cut/direction.hpp"
@@ -44,8 +45,8 @@ std::uint32_t greatest_magnitude_bits(std::span<const float> values) {
   return result;
 }
 
-// direction_modulo_half() of eight or so points at once.
-HWY_INLINE Float direction(Float x, Float y) noexcept {
+// direction() of eight or so points at once.
+HWY_INLINE Float direction_of(Float x, Float y) noexcept {
   const Floats df;
   const Float along = hn::Xor(x, hn::And(y, hn::SignBit(df)));
   const Float width = hn::Abs(x);
@@ -58,7 +59,10 @@ HWY_INLINE Float direction(Float x, Float y) noexcept {
   const Float eighth = hn::Mul(tangent, hn::MulAdd(bend, hn::Sub(one, tangent), one));
   const Float quarter =
       hn::IfThenElse(hn::Gt(width, height), eighth, hn::Sub(hn::Set(df, 2.0F), eighth));
-  return hn::IfThenElse(hn::Lt(along, hn::Zero(df)), hn::Sub(hn::Set(df, 4.0F), quarter), quarter);
+  const Float half = hn::IfThenElse(hn::Lt(along, hn::Zero(df)),
+                                    hn::Sub(hn::Set(df, kHalfTurn<float>), quarter), quarter);
+  const auto below = hn::MaskFromVec(hn::BitCast(df, hn::BroadcastSignBit(hn::BitCast(Ints(), y))));
+  return hn::IfThenElse(below, hn::Add(half, hn::Set(df, kHalfTurn<float>)), half);
 }
 
 HWY_INLINE Int keys_of(Float x, Float y, Float inverse_squared_half_width) noexcept {
@@ -73,34 +77,91 @@ HWY_INLINE Int keys_of(Float x, Float y, Float inverse_squared_half_width) noexc
   constexpr auto kLastShell = static_cast<std::int32_t>(ShellIndex::kShells - 1);
   constexpr auto kLastBucket = static_cast<std::int32_t>(ShellIndex::kBuckets - 1);
   const Int shell = hn::Min(hn::Max(exponent, hn::Zero(di)), hn::Set(di, kLastShell));
-  const Float turn =
-      hn::Mul(direction(x, y), hn::Set(df, static_cast<float>(ShellIndex::kBuckets) / kHalfTurn));
+  const Float turn = hn::Mul(direction_of(x, y),
+                             hn::Set(df, static_cast<float>(ShellIndex::kBuckets) / kTurn<float>));
   const Int bucket = hn::Min(hn::ConvertTo(di, turn), hn::Set(di, kLastBucket));
   constexpr int kBucketBits = std::countr_zero(ShellIndex::kBuckets);
   return hn::Add(hn::ShiftLeft<kBucketBits>(shell), bucket);
 }
 
-void shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
-                float inverse_squared_half_width, std::uint16_t* keys) {
+KeyBounds shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
+                     float inverse_squared_half_width, std::uint16_t* keys) {
   const Floats df;
+  const Ints di;
   const hn::Rebind<std::uint16_t, Floats> dk;
   const std::size_t lanes = hn::Lanes(df);
   const Float inverse = hn::Set(df, inverse_squared_half_width);
+  Int least = hn::Set(di, 0xFFFF);
+  Int greatest = hn::Zero(di);
   std::size_t i = begin;
   for (; i + lanes <= end; i += lanes) {
     const Int key =
         keys_of(hn::LoadU(df, cloud.x.data() + i), hn::LoadU(df, cloud.y.data() + i), inverse);
+    least = hn::Min(least, key);
+    greatest = hn::Max(greatest, key);
     hn::StoreU(hn::DemoteTo(dk, key), dk, keys + i);
   }
   HWY_ALIGN float x[hn::MaxLanes(df)] = {};
   HWY_ALIGN float y[hn::MaxLanes(df)] = {};
-  for (std::size_t k = 0; i + k < end; ++k) {
-    x[k] = cloud.x[i + k];
-    y[k] = cloud.y[i + k];
+  if (i < end) {
+    for (std::size_t k = 0; k < lanes; ++k) {  // behind the end, the last point again
+      x[k] = cloud.x[std::min(i + k, end - 1)];
+      y[k] = cloud.y[std::min(i + k, end - 1)];
+    }
+    HWY_ALIGN std::uint16_t last[hn::MaxLanes(df)];
+    const Int key = keys_of(hn::Load(df, x), hn::Load(df, y), inverse);
+    least = hn::Min(least, key);
+    greatest = hn::Max(greatest, key);
+    hn::StoreU(hn::DemoteTo(dk, key), dk, last);
+    std::copy_n(last, end - i, keys + i);
   }
-  HWY_ALIGN std::uint16_t last[hn::MaxLanes(df)];
-  hn::StoreU(hn::DemoteTo(dk, keys_of(hn::Load(df, x), hn::Load(df, y), inverse)), dk, last);
-  for (std::size_t k = 0; i + k < end; ++k) keys[i + k] = last[k];
+  return {static_cast<std::uint16_t>(hn::GetLane(hn::MinOfLanes(di, least))),
+          static_cast<std::uint16_t>(hn::GetLane(hn::MaxOfLanes(di, greatest)))};
+}
+
+void place_points(const CloudView& cloud, const std::uint16_t* keys, const KeyedPart& a,
+                  const KeyedPart& b, PointRecord* records) {
+  const hn::CappedTag<float, 4> df;
+  const hn::RebindToUnsigned<decltype(df)> dw;
+  const std::size_t lanes = hn::Lanes(df);
+  const float* HWY_RESTRICT xs = cloud.x.data();
+  const float* HWY_RESTRICT ys = cloud.y.data();
+  const float* HWY_RESTRICT zs = cloud.z.data();
+  const auto place_one = [&](std::size_t i, std::uint32_t* next) {
+    records[next[keys[i]]++] = {xs[i], ys[i], zs[i], static_cast<std::uint32_t>(i)};
+  };
+  const auto place_some = [&](std::size_t i, std::uint32_t* next) HWY_ATTR {
+    alignas(16) std::array<PointRecord, hn::MaxLanes(df)> turned;
+    const auto source = hn::Iota(dw, static_cast<std::uint32_t>(i));
+    hn::StoreInterleaved4(hn::LoadU(df, xs + i), hn::LoadU(df, ys + i), hn::LoadU(df, zs + i),
+                          hn::BitCast(df, source), df, &turned[0].x);
+    for (std::size_t k = 0; k < lanes; ++k) records[next[keys[i + k]]++] = turned[k];
+  };
+  const std::size_t common = std::min(a.end - a.begin, b.end - b.begin);
+  std::size_t done = 0;
+  for (; done + lanes <= common; done += lanes) {
+    place_some(a.begin + done, a.next);
+    place_some(b.begin + done, b.next);
+  }
+  for (std::size_t i = a.begin + done; i < a.end; ++i) place_one(i, a.next);
+  for (std::size_t i = b.begin + done; i < b.end; ++i) place_one(i, b.next);
+}
+
+void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
+                    const PointColumns columns) {
+  const Floats df;
+  const hn::ScalableTag<std::uint32_t> dw;
+  for (std::size_t i = begin; i < end; i += hn::Lanes(df)) {
+    Float x;
+    Float y;
+    Float z;
+    Float source;
+    hn::LoadInterleaved4(df, &records[i].x, x, y, z, source);
+    hn::StoreU(x, df, columns.x + i);
+    hn::StoreU(y, df, columns.y + i);
+    hn::StoreU(z, df, columns.z + i);
+    hn::StoreU(hn::BitCast(dw, source), dw, columns.source + i);
+  }
 }
 
 }  // namespace convexcut::HWY_NAMESPACE
@@ -112,14 +173,26 @@ namespace convexcut {
 // Highway's table takes no noexcept functions; none of them throws.
 HWY_EXPORT(greatest_magnitude_bits);
 HWY_EXPORT(shell_keys);
+HWY_EXPORT(place_points);
+HWY_EXPORT(spread_records);
 
 std::uint32_t greatest_magnitude_bits(std::span<const float> values) noexcept {
   return HWY_DYNAMIC_DISPATCH(greatest_magnitude_bits)(values);
 }
 
-void shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
-                float inverse_squared_half_width, std::uint16_t* keys) noexcept {
-  HWY_DYNAMIC_DISPATCH(shell_keys)(cloud, begin, end, inverse_squared_half_width, keys);
+KeyBounds shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
+                     float inverse_squared_half_width, std::uint16_t* keys) noexcept {
+  return HWY_DYNAMIC_DISPATCH(shell_keys)(cloud, begin, end, inverse_squared_half_width, keys);
+}
+
+void place_points(const CloudView& cloud, const std::uint16_t* keys, const KeyedPart& a,
+                  const KeyedPart& b, PointRecord* records) noexcept {
+  HWY_DYNAMIC_DISPATCH(place_points)(cloud, keys, a, b, records);
+}
+
+void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
+                    const PointColumns& columns) noexcept {
+  HWY_DYNAMIC_DISPATCH(spread_records)(records, begin, end, columns);
 }
 
 }  // namespace convexcut

@@ -2,6 +2,9 @@
 #include "core/convex_cut/engine.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
 #include <stdexcept>
 
 #include "core/convex_cut/cloud_check.hpp"
@@ -11,7 +14,7 @@ namespace {
 
 // Planes that a thread takes at once. Neighbouring planes share most of their points, which are
 // marked then and still in the thread's cache; more at once would leave the team idle at the end.
-constexpr std::uint32_t kPlanesAtOnce = 30;
+constexpr std::uint32_t kPlanesAtOnce = 10;
 
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 
@@ -30,8 +33,9 @@ constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 ConvexCutEngine::ConvexCutEngine(const ConvexCutParameters& parameters, std::size_t max_points,
                                  unsigned threads)
     : parameters_(checked(parameters)),
-      index_(parameters.half_width_m, checked(max_points)),
+      index_(parameters.half_width_m, checked(max_points), threads),
       max_points_(max_points),
+      magnitudes_(index_.parts()),
       team_(threads) {
   planes_.reserve(parameters.planes);
   windows_.reserve(parameters.planes);
@@ -47,41 +51,68 @@ ConvexCutEngine::ConvexCutEngine(const ConvexCutParameters& parameters, std::siz
 CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels,
                                  std::uint32_t plane_stride) noexcept {
   if (cloud.size() > max_points()) return CutStatus::too_many_points;
-  const CloudCheck check = check_cloud(cloud, labels.size());
-  if (check.status != CutStatus::ok) return check.status;
+  if (!sizes_match(cloud, labels.size())) return CutStatus::size_mismatch;
 
-  index_.build(cloud);
-  next_plane_.store(0, std::memory_order_relaxed);  // published by the team
+  index_.begin(cloud);
+  prepare_steps(plane_stride);
+  for (const std::unique_ptr<SliceWorker>& worker : workers_) worker->forget();
   auto work = [&](unsigned member) noexcept {
-    workers_[member]->begin(index_, check.extent_m);
-    process_slices(*workers_[member], plane_stride);
+    SliceWorker& worker = *workers_[member];
+    steps_.count.run([&](std::uint32_t part) { magnitudes_[part] = index_.count(part); });
+    if (extent_m() > kMaxCoordinateM) return;
+    steps_.lay_out.run([&](std::uint32_t) { index_.lay_out(); });
+    steps_.place.run([&](std::uint32_t part) { index_.place(part); });
+    steps_.spread.run([&](std::uint32_t chunk) { index_.spread(chunk); });
+    steps_.slices.run([&](std::uint32_t group) { process_slices(worker, group, plane_stride); });
+    steps_.write.run([&](std::uint32_t chunk) { write_labels(chunk, labels); });
   };
   team_.run(work);
-
-  const std::span<const std::uint32_t> source = index_.source();
-  const std::span<std::uint8_t> marks = workers_.front()->marks();
-  for (std::size_t member = 1; member < workers_.size(); ++member) {
-    const std::span<const std::uint8_t> others = workers_[member]->marks();
-    for (std::size_t i = 0; i < source.size(); ++i) {
-      marks[i] = static_cast<std::uint8_t>(marks[i] | others[i]);
-    }
-  }
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    labels[source[i]] = static_cast<Label>(marks[i]);
-  }
-  return CutStatus::ok;
+  return extent_m() > kMaxCoordinateM ? CutStatus::coordinate_out_of_range : CutStatus::ok;
 }
 
-void ConvexCutEngine::process_slices(SliceWorker& worker, std::uint32_t plane_stride) noexcept {
-  const auto end = (static_cast<std::uint32_t>(planes_.size()) + plane_stride - 1) / plane_stride;
-  // Relaxed: the counter only deals the planes out. Which thread takes one does not matter: the
-  // labels are a union.
-  for (std::uint32_t begin = next_plane_.fetch_add(kPlanesAtOnce, std::memory_order_relaxed);
-       begin < end; begin = next_plane_.fetch_add(kPlanesAtOnce, std::memory_order_relaxed)) {
-    for (std::uint32_t i = begin; i < std::min(begin + kPlanesAtOnce, end); ++i) {
-      const std::size_t plane = std::size_t{i} * plane_stride;
-      worker.process(planes_[plane], windows_[plane]);
+void ConvexCutEngine::prepare_steps(std::uint32_t plane_stride) noexcept {
+  const auto parts = static_cast<std::uint32_t>(index_.parts());
+  const auto chunks = static_cast<std::uint32_t>(index_.chunks());
+  const auto planes = static_cast<std::uint32_t>(planes_.size());
+  const std::uint32_t cut_planes = (planes + plane_stride - 1) / plane_stride;
+  steps_.count.prepare(parts);
+  steps_.lay_out.prepare(1);
+  steps_.place.prepare(parts);
+  steps_.spread.prepare(chunks);
+  steps_.slices.prepare((cut_planes + kPlanesAtOnce - 1) / kPlanesAtOnce);
+  steps_.write.prepare(chunks);
+}
+
+// The greatest magnitude of a coordinate. Infinity and the NaNs are greater than any number.
+float ConvexCutEngine::extent_m() const noexcept {
+  constexpr auto kInfinity = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity());
+  return std::bit_cast<float>(std::min(std::ranges::max(magnitudes_), kInfinity));
+}
+
+void ConvexCutEngine::process_slices(SliceWorker& worker, std::uint32_t group,
+                                     std::uint32_t plane_stride) noexcept {
+  if (!worker.has_begun()) worker.begin(index_, extent_m());
+  const std::size_t first = std::size_t{group} * kPlanesAtOnce * plane_stride;
+  const std::size_t last = first + std::size_t{kPlanesAtOnce} * plane_stride;
+  for (std::size_t i = first; i < std::min(last, planes_.size()); i += plane_stride) {
+    worker.process(planes_[i], windows_[i]);
+  }
+}
+
+// A point is structure when any thread that has come in time for a slice has marked it.
+void ConvexCutEngine::write_labels(std::uint32_t chunk, std::span<Label> labels) noexcept {
+  const std::size_t begin = std::size_t{chunk} * ShellIndex::kChunk;
+  const std::size_t end = std::min(begin + ShellIndex::kChunk, index_.size());
+  std::array<std::uint8_t, ShellIndex::kChunk> marks{};
+  for (const std::unique_ptr<SliceWorker>& worker : workers_) {
+    if (!worker->has_begun()) continue;
+    const std::uint8_t* const of_worker = worker->marks().data() + begin;
+    for (std::size_t i = 0; i < end - begin; ++i) {
+      marks[i] = static_cast<std::uint8_t>(marks[i] | of_worker[i]);
     }
+  }
+  for (std::size_t i = begin; i < end; ++i) {
+    labels[index_.source(i)] = static_cast<Label>(marks[i - begin]);
   }
 }
 

@@ -2,10 +2,11 @@
 //
 // The points of a cloud sorted so that the candidates for a slice lie in a few contiguous ranges.
 //
-// A point at horizontal radius r is within d of a plane through the z axis only if its direction,
-// modulo 180°, is within asin(d/r) of the plane's. So the points are sorted by shell (a range of r)
-// and within a shell by direction: a plane's candidates in a shell are one range, or two where the
-// range passes 180°. Candidates are a superset: the caller decides on |v| < d.
+// A point at horizontal radius r is within d of a plane through the z axis only if its direction is
+// within asin(d/r) of the plane's or of the opposite one. So the points are sorted by shell (a
+// range of r) and within a shell by direction: a plane's candidates in a shell are a range on
+// either side of the axis, or two where a range passes 360°. Candidates are a superset: the caller
+// decides on |v| < d.
 #pragma once
 
 #include <array>
@@ -15,6 +16,8 @@
 #include <vector>
 
 #include "core/cloud.hpp"
+#include "core/convex_cut/cloud_kernels.hpp"
+#include "core/convex_cut/column.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
 #include "core/workspace.hpp"
 
@@ -25,30 +28,57 @@ class ShellIndex {
   // Shell 0: r < √2·d, whose points are candidates of every plane; shell s: √2ˢ·d ≤ r < √2ˢ⁺¹·d;
   // the last one is open. 24 shells reach 2900·d, beyond which a bucket is wider than any slice.
   static constexpr std::size_t kShells = 24;
-  static constexpr std::size_t kBuckets = 1024;  // directions modulo 180°
+  static constexpr std::size_t kBuckets = 1024;  // directions, all round
 
   // Positions [begin, end) of the sorted points.
   struct Range {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
   };
+  // Candidates of a slice: those that are members have u within the bounds, in metres.
+  struct Candidates {
+    Range range;
+    float least_u_m = 0.0F;
+    float most_u_m = 0.0F;
+  };
+  static constexpr std::size_t kMostRanges = 4 * kShells;
 
-  // Allocates 18 bytes a point.
-  ShellIndex(double half_width_m, std::size_t max_points);
+  // Allocates 34 bytes a point. threads: that a build is made for.
+  ShellIndex(double half_width_m, std::size_t max_points, unsigned threads);
 
-  // Sorts a cloud of at most max_points points whose coordinates have been checked.
-  // RT: no allocation, no lock, no system call.
+  // Sorts a cloud of at most max_points points whose coordinates have been checked, in the calling
+  // thread. RT: no allocation, no lock, no system call.
   void build(const CloudView& cloud) noexcept;
 
+  // The same in steps for several threads: a counting sort. Every call of a step is made once, in
+  // any thread, and all of them have returned before the next step begins.
+  //  1. begin
+  //  2. count(part) for each part: sorts nothing yet. Returns the bit pattern of the greatest
+  //     magnitude of a coordinate (see greatest_magnitude_bits); when that is beyond
+  //     kMaxCoordinateM, the part has not been counted and the build has to be given up.
+  //  3. lay_out
+  //  4. place(part) for each part
+  //  5. spread(chunk) for each chunk
+  void begin(const CloudView& cloud) noexcept;
+  [[nodiscard]] std::uint32_t count(std::size_t part) noexcept;
+  void lay_out() noexcept;
+  void place(std::size_t part) noexcept;
+  void spread(std::size_t chunk) noexcept;
+  [[nodiscard]] std::size_t parts() const noexcept { return parts_.size(); }
+  [[nodiscard]] std::size_t chunks() const noexcept { return (size_ + kChunk - 1) / kChunk; }
+  static constexpr std::size_t kChunk = 4096;  // points
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
   // The sorted points, and where each one came from.
   [[nodiscard]] CloudView points() const noexcept {
     return {{x_.data(), size_}, {y_.data(), size_}, {z_.data(), size_}};
   }
-  [[nodiscard]] std::span<const std::uint32_t> source() const noexcept {
-    return {source_.data(), size_};
+  [[nodiscard]] std::uint32_t source(std::size_t position) const noexcept {
+    return source_[position];
   }
 
-  // The buckets that a plane's slice touches in one shell: `count` from `first` on, wrapping.
+  // The buckets that a plane's slice touches in one shell, on the side of u > 0: `count` from
+  // `first` on, wrapping.
   struct Window {
     std::uint16_t first = 0;
     std::uint16_t count = 0;
@@ -56,28 +86,53 @@ class ShellIndex {
   using Windows = std::array<Window, kShells>;
   [[nodiscard]] static Windows windows(const SlicingPlane& plane) noexcept;
 
-  // Calls visit(Range) for every range that may hold points of the slice.
+  // Calls visit(Candidates) for every range that may hold points of the slice.
   template <class Visit>
   void for_each_candidate_range(const Windows& windows, Visit&& visit) const noexcept {
-    for (std::size_t shell = 0; shell < kShells; ++shell) {
+    for (const std::size_t shell : std::span(used_shells_).first(used_shell_count_)) {
       const std::uint32_t* const start = starts_.data() + shell * kBuckets;
-      if (start[0] == start[kBuckets]) continue;
+      const float near = least_u_m_[shell];
+      const float far = most_u_m_[shell];
+      if (shell == 0) {
+        visit(Candidates{{start[0], start[kBuckets]}, -far, far});
+        continue;
+      }
+      const auto visit_from = [&](std::size_t first, float least_u_m, float most_u_m) {
+        const std::size_t last = first + windows[shell].count;
+        const std::size_t wrapped = last > kBuckets ? last - kBuckets : 0;
+        const Range range{start[first], start[last - wrapped]};
+        if (range.begin != range.end) visit(Candidates{range, least_u_m, most_u_m});
+        if (wrapped > 0 && start[0] != start[wrapped]) {
+          visit(Candidates{{start[0], start[wrapped]}, least_u_m, most_u_m});
+        }
+      };
       const std::size_t first = windows[shell].first;
-      const std::size_t last = first + windows[shell].count;
-      const std::size_t wrapped = last > kBuckets ? last - kBuckets : 0;
-      if (start[first] != start[last - wrapped]) visit(Range{start[first], start[last - wrapped]});
-      if (wrapped > 0 && start[0] != start[wrapped]) visit(Range{start[0], start[wrapped]});
+      visit_from(first, near, far);
+      visit_from((first + kBuckets / 2) % kBuckets, -far, -near);
     }
   }
 
  private:
+  // Two runs of the cloud, each with its own counts.
+  struct Part {
+    std::array<KeyedPart, 2> runs;
+    std::array<std::vector<std::uint32_t>, 2> counts;  // of each key; then its next place
+    KeyBounds bounds;
+  };
+
   float inverse_squared_half_width_;
+  std::array<float, kShells> least_u_m_;  // bounds of |u| of members
+  std::array<float, kShells> most_u_m_;
+  CloudView cloud_;  // the one that is being sorted
   std::size_t size_ = 0;
-  Workspace<float> x_, y_, z_;
-  Workspace<std::uint32_t> source_;
+  std::vector<Part> parts_;
   Workspace<std::uint16_t> keys_;  // shell · kBuckets + bucket, in the cloud's order
-  std::vector<std::uint32_t> first_half_starts_;
+  Column<PointRecord> records_;
+  Column<float> x_, y_, z_;
+  Column<std::uint32_t> source_;
   std::vector<std::uint32_t> starts_;  // of each key in the sorted points, and the end
+  std::array<std::size_t, kShells> used_shells_{};
+  std::size_t used_shell_count_ = 0;
 };
 
 }  // namespace convexcut

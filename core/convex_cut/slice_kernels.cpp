@@ -5,66 +5,22 @@
 #include <cmath>
 #include <limits>
 
-#include "core/convex_cut/lanes_in_front.hpp"
-
 #undef HWY_TARGET_INCLUDE
 // Highway includes this file again for each instruction set.
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
 #define HWY_TARGET_INCLUDE "core/convex_cut/slice_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Behind foreach_target.h.
-#include <hwy/highway.h>
+#include "core/simd/kernel_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace convexcut::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Floats = hn::ScalableTag<float>;
-using Words = hn::ScalableTag<std::uint32_t>;
-using Float = hn::Vec<Floats>;
-using Word = hn::Vec<Words>;
-using Mask = hn::Mask<Floats>;
 
 // v and u in float are off by less than this part of the extent: two products of rounded factors
 // and their sum, 4.3·2⁻²⁴; and half_width_m is rounded too.
 constexpr float kOffsetErrorPerExtent = 4e-7F;
 
 constexpr float kFarAway = std::numeric_limits<float>::max();
-
-HWY_INLINE std::uint64_t to_bits(Mask mask) noexcept {
-  std::uint64_t bits = 0;
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(Floats(), mask, bytes);
-  for (unsigned i = 8; i-- > 0;) bits = (bits << 8U) | bytes[i];
-  return bits;
-}
-
-// Moves the lanes of a mask to the front of any number of vectors.
-class Compressor {
- public:
-#if HWY_TARGET == HWY_AVX2
-  // Highway 1.0's own table is copied to the stack at every use by GCC 12: four times as slow.
-  HWY_INLINE explicit Compressor(Mask mask) noexcept
-      : order_(
-            hn::IndicesFromVec(Floats(), hn::Load(Words(), kLanesInFront[to_bits(mask)].data()))) {}
-  HWY_INLINE Float operator()(Float v) const noexcept { return hn::TableLookupLanes(v, order_); }
-  HWY_INLINE Word operator()(Word v) const noexcept {
-    return hn::BitCast(Words(), (*this)(hn::BitCast(Floats(), v)));
-  }
-
- private:
-  decltype(hn::IndicesFromVec(Floats(), Word())) order_;
-#else
-  HWY_INLINE explicit Compressor(Mask mask) noexcept : mask_(mask) {}
-  HWY_INLINE Float operator()(Float v) const noexcept { return hn::Compress(v, mask_); }
-  HWY_INLINE Word operator()(Word v) const noexcept {
-    return hn::Compress(v, hn::RebindMask(Words(), mask_));
-  }
-
- private:
-  Mask mask_;
-#endif
-};
 
 // The lanes whose |v| is nearer to half_width_m than float can tell: the reference's expression.
 HWY_NOINLINE std::uint64_t decide_exactly(const CloudView& sorted, std::size_t begin,
@@ -79,18 +35,10 @@ HWY_NOINLINE std::uint64_t decide_exactly(const CloudView& sorted, std::size_t b
   return inside;
 }
 
-HWY_INLINE Mask from_bits(std::uint64_t bits) noexcept {
-  std::uint8_t bytes[8];
-  for (auto& byte : bytes) {
-    byte = static_cast<std::uint8_t>(bits);
-    bits >>= 8U;
-  }
-  return hn::LoadMaskBits(Floats(), bytes);
-}
-
 std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
-                   std::span<const ShellIndex::Range> ranges, const SlicingPlane& plane,
-                   double half_width_m, float extent_m, const SliceColumns& members) {
+                   std::span<const ShellIndex::Candidates> candidates, const SlicingPlane& plane,
+                   double half_width_m, float extent_m, const SliceColumns members,
+                   Stretch* stretches) {
   const Floats df;
   const Words dw;
   const hn::Rebind<std::uint8_t, Words> db;
@@ -106,7 +54,8 @@ std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
   const float* HWY_RESTRICT ys = sorted.y.data();
   const float* HWY_RESTRICT zs = sorted.z.data();
   std::size_t count = 0;
-  for (const ShellIndex::Range range : ranges) {
+  for (const auto& [range, least_u_m, most_u_m] : candidates) {
+    const std::size_t begin = count;
     for (std::size_t i = range.begin; i < range.end; i += lanes) {
       const Float x = hn::LoadU(df, xs + i);
       const Float y = hn::LoadU(df, ys + i);
@@ -129,6 +78,8 @@ std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
       hn::StoreU(compress(position), dw, members.position + count);
       count += hn::CountTrue(df, inside);
     }
+    *stretches++ = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(count), least_u_m,
+                    most_u_m};
   }
   return count;
 }
@@ -137,40 +88,37 @@ std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
 // least point. Those that lean a little from u and z find the outermost noise at both ends of
 // walls, floor and ceiling: the polygon then hugs them, and few points are left outside of it.
 constexpr std::size_t kAxes = kExtremes / 2;
-struct Axis {
-  float u;
-  float z;
-};
-constexpr float kLean = 1.0F / 16.0F;
-constexpr std::array<Axis, kAxes> kCoarse{
-    {{1, 0}, {1, kLean}, {1, 1}, {kLean, 1}, {0, 1}, {-kLean, 1}, {-1, 1}, {-1, kLean}}};
-constexpr float kSlight = 1.0F / 32.0F;
-constexpr float kStrong = 1.0F / 4.0F;
-constexpr std::array<Axis, kAxes> kFine{{{1, kSlight},
-                                         {1, kStrong},
-                                         {kStrong, 1},
-                                         {kSlight, 1},
-                                         {-kSlight, 1},
-                                         {-kStrong, 1},
-                                         {-1, kStrong},
-                                         {-1, kSlight}}};
+HWY_INLINE void along_axes(Float u, Float z, Float* HWY_RESTRICT values) noexcept {
+  const Float lean = hn::Set(Floats(), 1.0F / 16.0F);
+  const Float some_u = hn::Mul(u, lean);
+  const Float some_z = hn::Mul(z, lean);
+  values[0] = u;
+  values[1] = hn::Add(u, some_z);
+  values[2] = hn::Add(u, z);
+  values[3] = hn::Add(some_u, z);
+  values[4] = z;
+  values[5] = hn::Sub(z, some_u);
+  values[6] = hn::Sub(z, u);
+  values[7] = hn::Sub(some_z, u);
+}
 
-// The number of a vector takes the place of a value's lowest mantissa bits, as few as are needed:
-// one maximum finds both. That only makes the choice a little worse.
-constexpr std::size_t kMostVectors = 1U << 11U;
+// The vectors of members are numbered: a value is tagged with its vector's number.
+// When there are more than can be numbered, only one in so many is looked at; and of single members
+// on the baseline path, which would spend half of its time here.
+constexpr std::size_t kMostVectors = HWY_TARGET == HWY_SCALAR ? 1U << 7U : 1U << 11U;
 
 // The member that the best of the lanes' tagged values names.
-HWY_INLINE std::uint32_t tagged_member(Float tagged, Float best, std::uint32_t tag_mask,
+HWY_INLINE std::uint32_t tagged_member(Float tagged_values, Float best, std::uint32_t tag_mask,
                                        std::size_t step, std::size_t count) noexcept {
   const Floats df;
   const Words dw;
-  const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(df, hn::Eq(tagged, best)));
+  const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(df, hn::Eq(tagged_values, best)));
   const Word tag = hn::And(hn::BitCast(dw, best), hn::Set(dw, tag_mask));
   const std::size_t index = hn::GetLane(tag) * step + lane;
   return static_cast<std::uint32_t>(index < count ? index : count - 1);
 }
 
-Extremes extremes(const SliceColumns& members, std::size_t count, Directions directions) {
+Extremes extremes(const SliceColumns members, std::size_t count) {
   const Floats df;
   const Words dw;
   const std::size_t lanes = hn::Lanes(df);
@@ -180,7 +128,6 @@ Extremes extremes(const SliceColumns& members, std::size_t count, Directions dir
   const std::size_t step = lanes * (count / lanes / kMostVectors + 1);
   const auto tag_mask = static_cast<std::uint32_t>(std::bit_ceil((count + step - 1) / step) - 1);
 
-  const std::array<Axis, kAxes>& axes = directions == Directions::coarse ? kCoarse : kFine;
   const Word keep = hn::Set(dw, ~tag_mask);
   Float most[kAxes];
   Float least[kAxes];
@@ -193,12 +140,12 @@ Extremes extremes(const SliceColumns& members, std::size_t count, Directions dir
     const Float u = hn::LoadU(df, members.u + i);
     const Float z = hn::LoadU(df, members.z + i);
     const Word tag = hn::Set(dw, number);
+    Float values[kAxes];
+    along_axes(u, z, values);
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
-      const Float value =
-          hn::MulAdd(u, hn::Set(df, axes[axis].u), hn::Mul(z, hn::Set(df, axes[axis].z)));
-      const Float tagged = hn::BitCast(df, hn::OrAnd(tag, hn::BitCast(dw, value), keep));
-      most[axis] = hn::Max(most[axis], tagged);
-      least[axis] = hn::Min(least[axis], tagged);
+      const Float numbered = tagged(values[axis], tag, keep);
+      most[axis] = most_of(most[axis], numbered);
+      least[axis] = least_of(least[axis], numbered);
     }
   }
   Extremes found{};
@@ -210,171 +157,6 @@ Extremes extremes(const SliceColumns& members, std::size_t count, Directions dir
   return found;
 }
 
-void set_edges(std::span<const HullPoint> polygon, EdgeColumns& edges) {
-  using Doubles = hn::ScalableTag<double>;
-  const Doubles dd;
-  const hn::Rebind<float, Doubles> df;
-  const std::size_t lanes = hn::Lanes(dd);
-  HWY_ALIGN double u[hn::MaxLanes(dd) + 1];
-  HWY_ALIGN double z[hn::MaxLanes(dd) + 1];
-  const std::size_t size = polygon.size();
-  // Edge k leads from vertex k − 1 to vertex k.
-  u[0] = polygon.back().u;
-  z[0] = polygon.back().z;
-  for (std::size_t begin = 0; begin < size; begin += lanes) {
-    for (std::size_t k = 0; k < lanes; ++k) {
-      const HullPoint& vertex = polygon[begin + k < size ? begin + k : size - 1];
-      u[k + 1] = vertex.u;
-      z[k + 1] = vertex.z;
-    }
-    const auto to_u = hn::LoadU(dd, u + 1);
-    const auto to_z = hn::LoadU(dd, z + 1);
-    const auto edge_u = hn::Sub(to_u, hn::Load(dd, u));
-    const auto edge_z = hn::Sub(to_z, hn::Load(dd, z));
-    const auto length = hn::Sqrt(hn::MulAdd(edge_u, edge_u, hn::Mul(edge_z, edge_z)));
-    // Counter-clockwise: the inside is on the left.
-    const auto normal_u = hn::Neg(hn::Div(edge_z, length));
-    const auto normal_z = hn::Div(edge_u, length);
-    const auto offset = hn::MulAdd(normal_u, to_u, hn::Mul(normal_z, to_z));
-    hn::StoreU(hn::DemoteTo(df, normal_u), df, edges.normal_u + begin);
-    hn::StoreU(hn::DemoteTo(df, normal_z), df, edges.normal_z + begin);
-    hn::StoreU(hn::DemoteTo(df, offset), df, edges.offset + begin);
-    u[0] = u[lanes];
-    z[0] = z[lanes];
-  }
-  edges.count = size;
-}
-
-// Four vectors of members at once: an edge is loaded once for all of them.
-struct Block {
-  Float u0, u1, u2, u3;
-  Float z0, z1, z2, z3;
-  Float depth0, depth1, depth2, depth3;
-};
-
-HWY_INLINE Block load_with_depth(const EdgeColumns& edges, const SliceColumns& members,
-                                 std::size_t i) noexcept {
-  const Floats df;
-  const std::size_t lanes = hn::Lanes(df);
-  Block b;
-  b.u0 = hn::LoadU(df, members.u + i);
-  b.u1 = hn::LoadU(df, members.u + i + lanes);
-  b.u2 = hn::LoadU(df, members.u + i + 2 * lanes);
-  b.u3 = hn::LoadU(df, members.u + i + 3 * lanes);
-  b.z0 = hn::LoadU(df, members.z + i);
-  b.z1 = hn::LoadU(df, members.z + i + lanes);
-  b.z2 = hn::LoadU(df, members.z + i + 2 * lanes);
-  b.z3 = hn::LoadU(df, members.z + i + 3 * lanes);
-  b.depth0 = hn::Set(df, kFarAway);
-  b.depth1 = b.depth0;
-  b.depth2 = b.depth0;
-  b.depth3 = b.depth0;
-  for (std::size_t k = 0; k < edges.count; ++k) {
-    const Float normal_u = hn::Set(df, edges.normal_u[k]);
-    const Float normal_z = hn::Set(df, edges.normal_z[k]);
-    const Float offset = hn::Set(df, edges.offset[k]);
-    const auto nearer = [&](Float depth, Float u, Float z) HWY_ATTR {
-      return hn::Min(depth, hn::MulAdd(normal_u, u, hn::MulSub(normal_z, z, offset)));
-    };
-    b.depth0 = nearer(b.depth0, b.u0, b.z0);
-    b.depth1 = nearer(b.depth1, b.u1, b.z1);
-    b.depth2 = nearer(b.depth2, b.u2, b.z2);
-    b.depth3 = nearer(b.depth3, b.u3, b.z3);
-  }
-  return b;
-}
-
-std::size_t depths(const EdgeColumns& edges, const SliceColumns& members, std::size_t count,
-                   float limit_m, float* depth, const SliceColumns& shallow) {
-  const Floats df;
-  const Words dw;
-  const std::size_t lanes = hn::Lanes(df);
-  const Float limit = hn::Set(df, limit_m);
-  const Word marked = hn::Set(dw, kMarked);
-  std::size_t found = 0;
-  for (std::size_t base = 0; base < count; base += 4 * lanes) {
-    const Block b = load_with_depth(edges, members, base);
-    const auto take = [&](std::size_t i, Float u, Float z, Float value) HWY_ATTR {
-      hn::StoreU(value, df, depth + i);
-      const Mask is_shallow =
-          hn::And(hn::Le(value, limit), hn::FirstN(df, count > i ? count - i : 0));
-      if (!hn::AllFalse(df, is_shallow)) {
-        const Word position = hn::AndNot(marked, hn::LoadU(dw, members.position + i));
-        const Compressor compress(is_shallow);
-        hn::StoreU(compress(u), df, shallow.u + found);
-        hn::StoreU(compress(z), df, shallow.z + found);
-        hn::StoreU(compress(position), dw, shallow.position + found);
-        found += hn::CountTrue(df, is_shallow);
-      }
-    };
-    take(base, b.u0, b.z0, b.depth0);
-    take(base + lanes, b.u1, b.z1, b.depth1);
-    take(base + 2 * lanes, b.u2, b.z2, b.depth2);
-    take(base + 3 * lanes, b.u3, b.z3, b.depth3);
-  }
-  return found;
-}
-
-std::size_t drop_deep(const float* depth, float limit_m, const SliceColumns& members,
-                      std::size_t count) {
-  const Floats df;
-  const Words dw;
-  const std::size_t lanes = hn::Lanes(df);
-  const Float limit = hn::Set(df, limit_m);
-  const Word marked = hn::Set(dw, kMarked);
-  std::size_t left = 0;
-  for (std::size_t i = 0; i < count; i += lanes) {
-    const Word position = hn::LoadU(dw, members.position + i);
-    const Mask shallow =
-        hn::And(hn::Le(hn::LoadU(df, depth + i), limit), hn::FirstN(df, count - i));
-    const Mask stays =
-        hn::And(shallow, hn::RebindMask(df, hn::Eq(hn::And(position, marked), hn::Zero(dw))));
-    const Compressor compress(stays);
-    hn::StoreU(compress(hn::LoadU(df, members.u + i)), df, members.u + left);
-    hn::StoreU(compress(hn::LoadU(df, members.z + i)), df, members.z + left);
-    hn::StoreU(compress(position), dw, members.position + left);
-    left += hn::CountTrue(df, stays);
-  }
-  return left;
-}
-
-std::size_t mark_near(const EdgeColumns& edges, const SliceColumns& members, std::size_t count,
-                      float e_m, float tolerance_m, std::span<std::uint8_t> marks) {
-  const Floats df;
-  const Words dw;
-  const std::size_t lanes = hn::Lanes(df);
-  const Float surely = hn::Set(df, e_m - tolerance_m);
-  const Float possibly = hn::Set(df, e_m + tolerance_m);
-  const Word marked = hn::Set(dw, kMarked);
-  HWY_ALIGN std::uint32_t near[hn::MaxLanes(dw)];
-  std::size_t doubtful_count = 0;
-  for (std::size_t base = 0; base < count; base += 4 * lanes) {
-    const Block b = load_with_depth(edges, members, base);
-    const Word p0 = hn::LoadU(dw, members.position + base);
-    const Word p1 = hn::LoadU(dw, members.position + base + lanes);
-    const Word p2 = hn::LoadU(dw, members.position + base + 2 * lanes);
-    const Word p3 = hn::LoadU(dw, members.position + base + 3 * lanes);
-    const auto take = [&](std::size_t i, Word p, Float depth) HWY_ATTR {
-      const Mask present = hn::FirstN(df, count > i ? count - i : 0);
-      const Mask is_near = hn::And(hn::Lt(depth, surely), present);
-      const Mask is_doubtful = hn::AndNot(is_near, hn::And(hn::Le(depth, possibly), present));
-      const Word position = hn::AndNot(marked, p);
-      hn::Store(Compressor(is_near)(position), dw, near);
-      const std::size_t near_count = hn::CountTrue(df, is_near);
-      for (std::size_t k = 0; k < near_count; ++k) marks[near[k]] = 1;
-      if (HWY_UNLIKELY(!hn::AllFalse(df, is_doubtful))) {
-        hn::StoreU(Compressor(is_doubtful)(position), dw, members.position + doubtful_count);
-        doubtful_count += hn::CountTrue(df, is_doubtful);
-      }
-    };
-    take(base, p0, b.depth0);
-    take(base + lanes, p1, b.depth1);
-    take(base + 2 * lanes, p2, b.depth2);
-    take(base + 3 * lanes, p3, b.depth3);
-  }
-  return doubtful_count;
-}
-
 }  // namespace convexcut::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -384,39 +166,17 @@ namespace convexcut {
 // Highway's table takes no noexcept functions; none of them throws.
 HWY_EXPORT(gather);
 HWY_EXPORT(extremes);
-HWY_EXPORT(set_edges);
-HWY_EXPORT(depths);
-HWY_EXPORT(drop_deep);
-HWY_EXPORT(mark_near);
 
 std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
-                   std::span<const ShellIndex::Range> ranges, const SlicingPlane& plane,
-                   double half_width_m, float extent_m, const SliceColumns& members) noexcept {
-  return HWY_DYNAMIC_DISPATCH(gather)(sorted, marks, ranges, plane, half_width_m, extent_m,
-                                      members);
+                   std::span<const ShellIndex::Candidates> candidates, const SlicingPlane& plane,
+                   double half_width_m, float extent_m, const SliceColumns& members,
+                   Stretch* stretches) noexcept {
+  return HWY_DYNAMIC_DISPATCH(gather)(sorted, marks, candidates, plane, half_width_m, extent_m,
+                                      members, stretches);
 }
 
-Extremes extremes(const SliceColumns& members, std::size_t count, Directions directions) noexcept {
-  return HWY_DYNAMIC_DISPATCH(extremes)(members, count, directions);
-}
-
-void set_edges(std::span<const HullPoint> polygon, EdgeColumns& edges) noexcept {
-  HWY_DYNAMIC_DISPATCH(set_edges)(polygon, edges);
-}
-
-std::size_t depths(const EdgeColumns& edges, const SliceColumns& members, std::size_t count,
-                   float limit_m, float* depth, const SliceColumns& shallow) noexcept {
-  return HWY_DYNAMIC_DISPATCH(depths)(edges, members, count, limit_m, depth, shallow);
-}
-
-std::size_t drop_deep(const float* depth, float limit_m, const SliceColumns& members,
-                      std::size_t count) noexcept {
-  return HWY_DYNAMIC_DISPATCH(drop_deep)(depth, limit_m, members, count);
-}
-
-std::size_t mark_near(const EdgeColumns& edges, const SliceColumns& members, std::size_t count,
-                      float e_m, float tolerance_m, std::span<std::uint8_t> marks) noexcept {
-  return HWY_DYNAMIC_DISPATCH(mark_near)(edges, members, count, e_m, tolerance_m, marks);
+Extremes extremes(const SliceColumns& members, std::size_t count) noexcept {
+  return HWY_DYNAMIC_DISPATCH(extremes)(members, count);
 }
 
 }  // namespace convexcut

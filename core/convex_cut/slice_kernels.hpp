@@ -13,7 +13,6 @@
 
 #include "core/cloud.hpp"
 #include "core/convex_cut/cloud_kernels.hpp"
-#include "core/convex_cut/convex_hull.hpp"
 #include "core/convex_cut/shell_index.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
 
@@ -29,51 +28,26 @@ struct SliceColumns {
   std::uint32_t* position;  // in the sorted points, with kMarked
 };
 
-// Writes the points of `ranges` with |v| < half_width_m, in the ranges' order, and returns how many
-// these are. `marks`: a byte a sorted point, 1 where it is structure already. extent_m: the
-// greatest magnitude of a coordinate. u has an error below 4.3·2⁻²⁴·extent.
-[[nodiscard]] std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
-                                 std::span<const ShellIndex::Range> ranges,
-                                 const SlicingPlane& plane, double half_width_m, float extent_m,
-                                 const SliceColumns& members) noexcept;
-
-// Indices of members that are (nearly, to 2⁻¹² of their value) outermost in sixteen directions,
-// counter-clockwise from +u. Some may be equal. Needs 0 < count < 2³¹. The fine directions lie
-// between the coarse ones.
-inline constexpr std::size_t kExtremes = 16;
-using Extremes = std::array<std::uint32_t, kExtremes>;
-enum class Directions : std::uint8_t { coarse, fine };
-[[nodiscard]] Extremes extremes(const SliceColumns& members, std::size_t count,
-                                Directions directions) noexcept;
-
-// Lines n·p = offset with unit normals n, each bounding the half-plane n·p ≥ offset. A point's
-// depth is its distance from the nearest line, negative outside of any half-plane. For the edges of
-// a convex polygon and a point inside, that is the distance from the polygon's boundary.
-struct EdgeColumns {
-  float* normal_u;
-  float* normal_z;
-  float* offset;  // metres
-  std::size_t count = 0;
+// Members [begin, end) of a slice that lie together: their u are within the bounds, in metres.
+struct Stretch {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  float least_u_m = 0.0F;
+  float most_u_m = 0.0F;
 };
 
-// The edges of a counter-clockwise convex polygon of at least three vertices into `edges`, whose
-// columns have kKernelPadding elements to spare: rounded once from double.
-void set_edges(std::span<const HullPoint> polygon, EdgeColumns& edges) noexcept;
+// Writes the candidates with |v| < half_width_m, in their order, a stretch for each range of them,
+// and returns how many these are. `marks`: a byte a sorted point, 1 where it is structure already.
+// extent_m: the greatest magnitude of a coordinate. u has an error below 4.3·2⁻²⁴·extent.
+[[nodiscard]] std::size_t gather(const CloudView& sorted, std::span<const std::uint8_t> marks,
+                                 std::span<const ShellIndex::Candidates> candidates,
+                                 const SlicingPlane& plane, double half_width_m, float extent_m,
+                                 const SliceColumns& members, Stretch* stretches) noexcept;
 
-// Writes depth[i] of every member, copies those that are at most limit_m deep to `shallow`, without
-// kMarked, and returns how many these are. `shallow` may be `members`.
-[[nodiscard]] std::size_t depths(const EdgeColumns& edges, const SliceColumns& members,
-                                 std::size_t count, float limit_m, float* depth,
-                                 const SliceColumns& shallow) noexcept;
-
-// Drops the members that are deeper than limit_m or marked; how many are left, in the same order.
-[[nodiscard]] std::size_t drop_deep(const float* depth, float limit_m, const SliceColumns& members,
-                                    std::size_t count) noexcept;
-
-// Sets marks[position] for the members that are less than e − tolerance deep, drops all but those
-// within the tolerance of e, takes kMarked from their positions, and returns how many these are.
-[[nodiscard]] std::size_t mark_near(const EdgeColumns& edges, const SliceColumns& members,
-                                    std::size_t count, float e_m, float tolerance_m,
-                                    std::span<std::uint8_t> marks) noexcept;
+// Indices of members that are (nearly, to 2⁻¹² of their value) outermost in sixteen directions,
+// counter-clockwise from +u. Some may be equal. Needs 0 < count < 2³¹.
+inline constexpr std::size_t kExtremes = 16;
+using Extremes = std::array<std::uint32_t, kExtremes>;
+[[nodiscard]] Extremes extremes(const SliceColumns& members, std::size_t count) noexcept;
 
 }  // namespace convexcut

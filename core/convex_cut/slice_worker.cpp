@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "core/convex_cut/orientation.hpp"
@@ -15,19 +17,18 @@ namespace {
 // unit normals, its roundings sum up to less than 1.2e-6·X (design note, section "Tolerance").
 constexpr float kDepthErrorPerExtent = 2e-6F;
 
-// A slice of fewer members goes to the hull as it is.
-constexpr std::size_t kWorthCulling = 32;
-
-// Fewer candidates for the hull than this are sorted as they are.
-constexpr std::size_t kWorthRefining = 16;
+// With more candidates or more rounds of widening, the exact hull of the candidates is quicker.
+constexpr std::size_t kMostCandidates = 1024;
+constexpr int kMostRounds = 6;
 
 // The reference's decision: any edge of the hull within the distance.
-[[nodiscard]] bool near_boundary(const SlicePoint& point, std::span<const HullPoint> hull,
+[[nodiscard]] bool near_boundary(const SlicePoint& point, const Polygon& hull,
                                  double distance_m) noexcept {
-  const HullPoint* from = &hull.back();
-  for (const HullPoint& to : hull) {
-    if (squared_distance(point, *from, to) <= distance_m * distance_m) return true;
-    from = &to;
+  SlicePoint from{hull.u[hull.size - 1], hull.z[hull.size - 1]};
+  for (std::size_t k = 0; k < hull.size; ++k) {
+    const SlicePoint to{hull.u[k], hull.z[k]};
+    if (squared_distance(point, from, to) <= distance_m * distance_m) return true;
+    from = to;
   }
   return false;
 }
@@ -37,139 +38,169 @@ constexpr std::size_t kWorthRefining = 16;
 SliceWorker::SliceWorker(const ConvexCutParameters& parameters, std::size_t max_points)
     : half_width_m_(parameters.half_width_m),
       hull_distance_m_(parameters.hull_distance_m),
-      u_(max_points + kKernelPadding),
-      z_(max_points + kKernelPadding),
-      depth_(max_points + kKernelPadding),
-      position_(max_points + kKernelPadding),
-      shallow_u_(max_points + kKernelPadding),
-      shallow_z_(max_points + kKernelPadding),
-      shallow_depth_(max_points + kKernelPadding),
-      shallow_position_(max_points + kKernelPadding),
+      u_(max_points + kKernelPadding, 0),
+      z_(max_points + kKernelPadding, 1),
+      position_(max_points + kKernelPadding, 2),
+      near_(max_points + kKernelPadding, 3),
+      shallow_u_(max_points + kKernelPadding, 6),
+      shallow_z_(max_points + kKernelPadding, 7),
+      shallow_position_(max_points + kKernelPadding, 8),
       candidates_(max_points),
       vertices_(max_points + 1),
-      normal_u_(max_points + kKernelPadding),
-      normal_z_(max_points + kKernelPadding),
-      edge_offset_(max_points + kKernelPadding),
-      edges_{normal_u_.data(), normal_z_.data(), edge_offset_.data()},
-      marks_(max_points + kKernelPadding) {}
+      hull_u_(max_points + kKernelPadding, 9),
+      hull_z_(max_points + kKernelPadding, 10),
+      normal_u_(max_points + kKernelPadding, 11),
+      normal_z_(max_points + kKernelPadding, 12),
+      edge_offset_(max_points + kKernelPadding, 13),
+      edge_least_u_(max_points + kKernelPadding, 14),
+      edge_most_u_(max_points + kKernelPadding, 15),
+      edges_{{normal_u_.data(), normal_z_.data(), edge_offset_.data()},
+             edge_least_u_.data(),
+             edge_most_u_.data()},
+      facing_normal_u_(max_points + kKernelPadding, 16),
+      facing_normal_z_(max_points + kKernelPadding, 17),
+      facing_offset_(max_points + kKernelPadding, 18),
+      facing_{facing_normal_u_.data(), facing_normal_z_.data(), facing_offset_.data()},
+      marks_(max_points + kKernelPadding, 19) {}
 
 void SliceWorker::begin(const ShellIndex& index, float extent_m) noexcept {
   index_ = &index;
   extent_m_ = extent_m;
   tolerance_m_ = kDepthErrorPerExtent * extent_m;
-  std::fill_n(marks_.begin(), index.points().size() + kKernelPadding, std::uint8_t{0});
+  std::fill_n(marks_.data(), index.size() + kKernelPadding, std::uint8_t{0});
 }
 
 void SliceWorker::process(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept {
   cut(plane, windows);
-  keep(plane, hull_of_members(plane));
+  if (count_ == 0) return;
+  const Polygon hull = hull_of_members(plane);
+  if (hull.size < 3) {
+    keep_all_members();
+  } else {
+    keep(plane, hull);
+  }
 }
 
 void SliceWorker::cut(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept {
-  std::array<ShellIndex::Range, 2 * ShellIndex::kShells> ranges;
+  std::array<ShellIndex::Candidates, ShellIndex::kMostRanges> ranges;
   std::size_t range_count = 0;
-  index_->for_each_candidate_range(windows,
-                                   [&](ShellIndex::Range range) { ranges[range_count++] = range; });
-  count_ = gather(index_->points(), marks_, std::span(ranges).first(range_count), plane,
-                  half_width_m_, extent_m_, members());
+  index_->for_each_candidate_range(
+      windows, [&](const ShellIndex::Candidates& found) { ranges[range_count++] = found; });
+  count_ = gather(index_->points(), marks_.span(), std::span(ranges).first(range_count), plane,
+                  half_width_m_, extent_m_, members(), stretch_storage_.data());
+  stretches_ = std::span(stretch_storage_).first(range_count);
 }
 
-HullPoint SliceWorker::exact_point(const SlicingPlane& plane,
-                                   std::uint32_t position) const noexcept {
+SlicePoint SliceWorker::exact_point(const SlicingPlane& plane,
+                                    std::uint32_t position) const noexcept {
   const CloudView& sorted = index_->points();
-  return {plane.project(sorted.x[position], sorted.y[position], sorted.z[position]), position};
+  return plane.project(sorted.x[position], sorted.y[position], sorted.z[position]);
 }
 
-SliceWorker::Hull SliceWorker::exact_hull(const SlicingPlane& plane, std::size_t count) noexcept {
-  for (std::size_t k = 0; k < count; ++k) {
-    candidates_[k] = exact_point(plane, shallow_position_[k]);
+// The hull of the slice.
+Polygon SliceWorker::hull_of_members(const SlicingPlane& plane) noexcept {
+  start_polygon(plane);
+  if (polygon_->size() < 3) start_with_any_triangle(plane);
+  if (polygon_->size() < 3) return {};
+  if (!polygon_->goes_around_once()) {
+    for (Stretch& stretch : stretches_) {  // then all edges may face any of them
+      stretch.least_u_m = std::numeric_limits<float>::lowest();
+      stretch.most_u_m = std::numeric_limits<float>::max();
+    }
   }
-  return convex_hull(std::span(candidates_).first(count), std::span<HullPoint>(vertices_));
-}
-
-// The hull of the slice; leaves the members that the slice may still make structure.
-SliceWorker::Hull SliceWorker::hull_of_members(const SlicingPlane& plane) noexcept {
-  if (count_ < kWorthCulling) {
-    for (std::size_t i = 0; i < count_; ++i) shallow_position_[i] = position_[i] & ~kMarked;
-    return exact_hull(plane, count_);
-  }
-  Polygon polygon = outermost_polygon(plane);
-  if (polygon.size() < 3) polygon = any_triangle(plane);
-  if (polygon.size() < 3) return {};  // degenerate: all members are kept
-  set_edges(polygon, edges_);
+  set_edges(polygon_->polygon(), edges_);
   std::size_t candidates =
-      depths(edges_, members(), count_, tolerance_m_, depth_.data(), shallow());
-  count_ = drop_deep(depth_.data(), static_cast<float>(hull_distance_m_) + tolerance_m_, members(),
-                     count_);
-  if (candidates > kWorthRefining) {
-    set_edges(refined_polygon(plane, candidates), edges_);
-    candidates =
-        depths(edges_, shallow(), candidates, tolerance_m_, shallow_depth_.data(), shallow());
+      find_shallow(edges_, facing_, members(), stretches_, tolerance_m_, shallow());
+  for (int round = 0; round < kMostRounds && candidates <= kMostCandidates; ++round) {
+    // The corners are candidates themselves. When there are no others, all other members are
+    // inside.
+    if (candidates == polygon_->size() && polygon_->is_convex()) return polygon_->polygon();
+    if (!widen_polygon(plane, candidates)) break;
+    set_edges(polygon_->polygon(), edges_);
+    candidates = drop_deep(edges_, shallow(), candidates, tolerance_m_);
   }
   return exact_hull(plane, candidates);
 }
 
-// Leaves out corners that repeat or turn inwards. Any closed chain is right; one that winds about
-// less leaves more to the exact hull.
-SliceWorker::Polygon SliceWorker::without_dents(std::size_t size) noexcept {
-  const auto turns_left = [](const SlicePoint& a, const SlicePoint& b, const SlicePoint& c) {
-    return (b.u - a.u) * (c.z - a.z) - (b.z - a.z) * (c.u - a.u) > 0.0;
-  };
-  std::size_t left = 0;
-  for (std::size_t k = 0; k < size; ++k) {
-    const HullPoint corner = corners_[k];
-    while (left >= 2 && !turns_left(corners_[left - 2], corners_[left - 1], corner)) --left;
-    if (left == 0 || corner != corners_[left - 1]) corners_[left++] = corner;
-  }
-  while (left > 2 && !turns_left(corners_[left - 2], corners_[left - 1], corners_[0])) --left;
-  return std::span(corners_).first(left);
-}
-
 // The outermost members in turn.
-SliceWorker::Polygon SliceWorker::outermost_polygon(const SlicingPlane& plane) noexcept {
-  const Extremes outer = extremes(members(), count_, Directions::coarse);
-  for (std::size_t k = 0; k < kExtremes; ++k) {
-    outermost_[k] = exact_point(plane, position_[outer[k]] & ~kMarked);
-    corners_[k] = outermost_[k];
+void SliceWorker::start_polygon(const SlicingPlane& plane) noexcept {
+  polygon_->clear();
+  const Extremes outermost = extremes(members(), count_);
+  std::uint32_t before = outermost.back();
+  for (const std::uint32_t member : outermost) {
+    polygon_->add_if(exact_point(plane, position_[member] & ~kMarked), member != before);
+    before = member;
   }
-  return without_dents(kExtremes);
-}
-
-SliceWorker::Polygon SliceWorker::refined_polygon(const SlicingPlane& plane,
-                                                  std::size_t candidates) noexcept {
-  const Extremes outer = extremes(shallow(), candidates, Directions::fine);
-  for (std::size_t k = 0; k < kExtremes; ++k) {
-    corners_[2 * k] = outermost_[k];
-    corners_[2 * k + 1] = exact_point(plane, shallow_position_[outer[k]]);
-  }
-  return without_dents(2 * kExtremes);
+  polygon_->close();
 }
 
 // For a slice whose outermost members are collinear: a triangle of members, or fewer vertices when
 // all of them are collinear. Without it, a slice along the axis would sort all of its points.
-SliceWorker::Polygon SliceWorker::any_triangle(const SlicingPlane& plane) noexcept {
-  corners_[0] = exact_point(plane, position_[0] & ~kMarked);
+void SliceWorker::start_with_any_triangle(const SlicingPlane& plane) noexcept {
+  std::array<SlicePoint, 3> corners{exact_point(plane, position_[0] & ~kMarked)};
   std::size_t found = 1;
   for (std::size_t i = 1; i < count_ && found < 3; ++i) {
-    const HullPoint point = exact_point(plane, position_[i] & ~kMarked);
-    const int turn = found == 1 ? 1 : orientation(corners_[0], corners_[1], point);
-    if (turn == 0 || point == corners_[0]) continue;
-    corners_[found++] = point;
-    if (turn < 0) std::swap(corners_[1], corners_[2]);
+    const SlicePoint point = exact_point(plane, position_[i] & ~kMarked);
+    const int turn = found == 1 ? 1 : orientation(corners[0], corners[1], point);
+    if (turn == 0 || point == corners[0]) continue;
+    corners[found++] = point;
+    if (turn < 0) std::swap(corners[1], corners[2]);
   }
-  return std::span(corners_).first(found);
+  polygon_->clear();
+  for (std::size_t k = 0; k < found; ++k) polygon_->add(corners[k]);
+  if (found == 3) polygon_->close();
 }
 
-void SliceWorker::keep(const SlicingPlane& plane, Hull hull) noexcept {
-  if (hull.size() < 3) {
-    for (std::size_t i = 0; i < count_; ++i) marks_[position_[i] & ~kMarked] = 1;
-    return;
+// Puts the candidate that is farthest outside of an edge between its corners (W. F. Eddy's and
+// A. Bykat's Quickhull, 1977/78). False when there is none, or no room.
+bool SliceWorker::widen_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept {
+  if (2 * polygon_->size() > InnerPolygon::kMostCorners) return false;
+  farthest_outside(edges_, shallow(), candidates, tolerance_m_, farthest_.data());
+  wider_polygon_->clear();
+  for (std::size_t k = 0; k < polygon_->size(); ++k) {
+    const bool is_found = farthest_[k] != kNobody;
+    const std::uint32_t farthest = is_found ? farthest_[k] : 0;
+    wider_polygon_->add_if(exact_point(plane, shallow_position_[farthest]), is_found);
+    wider_polygon_->add(polygon_->corner(k));
   }
-  set_edges(hull, edges_);
-  const std::size_t doubtful = mark_near(
-      edges_, members(), count_, static_cast<float>(hull_distance_m_), tolerance_m_, marks_);
-  for (std::size_t i = 0; i < doubtful; ++i) {
-    const std::uint32_t position = position_[i];
+  if (wider_polygon_->size() == polygon_->size()) return false;
+  wider_polygon_->close();
+  std::swap(polygon_, wider_polygon_);
+  return true;
+}
+
+Polygon SliceWorker::exact_hull(const SlicingPlane& plane, std::size_t count) noexcept {
+  for (std::size_t k = 0; k < count; ++k) {
+    candidates_[k] = exact_point(plane, shallow_position_[k]);
+  }
+  const std::span<const SlicePoint> hull =
+      convex_hull(std::span(candidates_).first(count), std::span<SlicePoint>(vertices_));
+  if (hull.size() < 3) return {};
+  double* const u = hull_u_.data() + 1;  // before it, the last vertex again
+  double* const z = hull_z_.data() + 1;
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    u[k] = hull[k].u;
+    z[k] = hull[k].z;
+  }
+  u[-1] = hull.back().u;
+  z[-1] = hull.back().z;
+  const Polygon polygon{u, z, hull.size()};
+  set_edges(polygon, edges_);
+  return polygon;
+}
+
+void SliceWorker::keep_all_members() noexcept {
+  for (std::size_t i = 0; i < count_; ++i) marks_[position_[i] & ~kMarked] = 1;
+}
+
+// Of the hull, edges_ are the edges.
+void SliceWorker::keep(const SlicingPlane& plane, const Polygon& hull) noexcept {
+  std::uint32_t* const doubtful = shallow_position_.data();  // the hull is done with
+  const std::size_t doubtful_count =
+      mark_near(edges_, facing_, members(), stretches_, static_cast<float>(hull_distance_m_),
+                tolerance_m_, marks_.span(), near_.data(), doubtful);
+  for (std::size_t i = 0; i < doubtful_count; ++i) {
+    const std::uint32_t position = doubtful[i];
     if (near_boundary(exact_point(plane, position), hull, hull_distance_m_)) marks_[position] = 1;
   }
 }

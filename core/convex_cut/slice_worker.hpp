@@ -16,8 +16,11 @@
 #include <cstdint>
 #include <span>
 
+#include "core/convex_cut/column.hpp"
 #include "core/convex_cut/convex_hull.hpp"
+#include "core/convex_cut/inner_polygon.hpp"
 #include "core/convex_cut/parameters.hpp"
+#include "core/convex_cut/polygon_kernels.hpp"
 #include "core/convex_cut/shell_index.hpp"
 #include "core/convex_cut/slice_kernels.hpp"
 #include "core/convex_cut/slicing_plane.hpp"
@@ -32,6 +35,9 @@ class SliceWorker {
 
   // Before the first slice of a cloud. extent_m: the greatest magnitude of a coordinate.
   void begin(const ShellIndex& index, float extent_m) noexcept;
+  [[nodiscard]] bool has_begun() const noexcept { return index_ != nullptr; }
+  // The cloud is done with.
+  void forget() noexcept { index_ = nullptr; }
 
   // Finds the members of the plane's slice that are structure. The planes of a cloud may come in
   // any order; neighbours after each other are quickest. RT: no allocation, no lock, no system
@@ -39,24 +45,19 @@ class SliceWorker {
   void process(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept;
 
   // By position in the index: 1 where a slice since begin() made the point structure.
-  [[nodiscard]] std::span<std::uint8_t> marks() noexcept { return marks_; }
+  [[nodiscard]] std::span<std::uint8_t> marks() noexcept { return marks_.span(); }
 
  private:
-  using Hull = std::span<const HullPoint>;
-  // A closed chain of members. A point that is left of all its edges is in the hull: the chain
-  // winds about it, convex or not.
-  using Polygon = std::span<const HullPoint>;
-
   void cut(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept;
-  [[nodiscard]] Hull hull_of_members(const SlicingPlane& plane) noexcept;
-  [[nodiscard]] Polygon outermost_polygon(const SlicingPlane& plane) noexcept;
-  [[nodiscard]] Polygon refined_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept;
-  [[nodiscard]] Polygon any_triangle(const SlicingPlane& plane) noexcept;
-  [[nodiscard]] Polygon without_dents(std::size_t size) noexcept;
-  [[nodiscard]] Hull exact_hull(const SlicingPlane& plane, std::size_t count) noexcept;
-  void keep(const SlicingPlane& plane, Hull hull) noexcept;
-  [[nodiscard]] HullPoint exact_point(const SlicingPlane& plane,
-                                      std::uint32_t position) const noexcept;
+  [[nodiscard]] Polygon hull_of_members(const SlicingPlane& plane) noexcept;
+  void start_polygon(const SlicingPlane& plane) noexcept;
+  void start_with_any_triangle(const SlicingPlane& plane) noexcept;
+  [[nodiscard]] bool widen_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept;
+  [[nodiscard]] Polygon exact_hull(const SlicingPlane& plane, std::size_t count) noexcept;
+  void keep(const SlicingPlane& plane, const Polygon& hull) noexcept;
+  void keep_all_members() noexcept;
+  [[nodiscard]] SlicePoint exact_point(const SlicingPlane& plane,
+                                       std::uint32_t position) const noexcept;
 
   [[nodiscard]] SliceColumns members() noexcept { return {u_.data(), z_.data(), position_.data()}; }
   [[nodiscard]] SliceColumns shallow() noexcept {
@@ -70,19 +71,27 @@ class SliceWorker {
   float extent_m_ = 0.0F;
   float tolerance_m_ = 0.0F;  // of depths
 
-  std::size_t count_ = 0;  // members; for keep() reduced to those that are still to be decided
-  Workspace<float> u_, z_, depth_;
-  Workspace<std::uint32_t> position_;
+  std::size_t count_ = 0;  // members
+  Column<float> u_, z_;
+  Column<std::uint32_t> position_;
+  std::array<Stretch, ShellIndex::kMostRanges> stretch_storage_{};
+  std::span<Stretch> stretches_;
+  Column<std::uint32_t> near_;  // positions of members that the slice makes structure
   // Members that may be vertices of the hull.
-  Workspace<float> shallow_u_, shallow_z_, shallow_depth_;
-  Workspace<std::uint32_t> shallow_position_;
-  Workspace<HullPoint> candidates_;
-  Workspace<HullPoint> vertices_;
-  std::array<HullPoint, 2 * kExtremes> outermost_{};
-  std::array<HullPoint, 2 * kExtremes> corners_{};
-  Workspace<float> normal_u_, normal_z_, edge_offset_;
-  EdgeColumns edges_;
-  Workspace<std::uint8_t> marks_;
+  Column<float> shallow_u_, shallow_z_;
+  Column<std::uint32_t> shallow_position_;
+  std::array<InnerPolygon, 2> polygons_;
+  InnerPolygon* polygon_ = polygons_.data();
+  InnerPolygon* wider_polygon_ = polygons_.data() + 1;
+  std::array<std::uint32_t, InnerPolygon::kMostCorners + kKernelPadding> farthest_{};
+  Workspace<SlicePoint> candidates_;
+  Workspace<SlicePoint> vertices_;
+  Column<double> hull_u_, hull_z_;
+  Column<float> normal_u_, normal_z_, edge_offset_, edge_least_u_, edge_most_u_;
+  PolygonEdges edges_;
+  Column<float> facing_normal_u_, facing_normal_z_, facing_offset_;
+  EdgeColumns facing_;
+  Column<std::uint8_t> marks_;
 };
 
 }  // namespace convexcut

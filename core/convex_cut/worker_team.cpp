@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/convex_cut/worker_team.hpp"
 
+#include "core/convex_cut/spin.hpp"
+
 namespace convexcut {
 
 WorkerTeam::WorkerTeam(unsigned members) {
@@ -29,15 +31,13 @@ void WorkerTeam::run(Task task) noexcept {
   }
   task.call(task.context, 0);
   // Acquire: pairs with the release in serve(); all that the work wrote is visible from here on.
-  for (std::uint32_t busy = busy_.load(std::memory_order_acquire); busy != 0;
-       busy = busy_.load(std::memory_order_acquire)) {
-    busy_.wait(busy, std::memory_order_acquire);
-  }
+  wait_until(busy_, [](std::uint32_t busy) { return busy == 0; });
 }
 
 void WorkerTeam::serve(unsigned member) noexcept {
   for (std::uint32_t seen = 0;;) {
-    round_.wait(seen, std::memory_order_acquire);  // pairs with the release in run() and stop()
+    // Pairs with the release in run() and stop().
+    wait_until(round_, [seen](std::uint32_t round) { return round != seen; });
     ++seen;  // no round can be missed: the next one waits for this thread
     if (stopping_) return;
     task_.call(task_.context, member);

@@ -21,7 +21,7 @@ constexpr int kRefinements = 3;
 
 // In units of the noise. What is within 3 σ has 0.99 of it when it is noise, 1.73 when evenly
 // spread.
-constexpr double kMostRms = 1.4;
+constexpr double kMostRms = 1.3;
 
 [[nodiscard]] PlanePatch patch_of(const PlaneMerger::Region& region) {
   // An evenly filled interval is 2·√3 standard deviations long.
@@ -56,6 +56,7 @@ PlanePatches PlaneExtractor::extract(const CloudView& cloud) {
     if (region != kNoPatch) region = merged.region_of_planelet[region];
   }
   support_.assign(regions_.size(), {});
+  membership_.begin(tree_);
   for (int round = 0; round < kRefinements; ++round) {
     membership_.assign(tree_, regions_, region_of_point_, support_);
     // The first round only finds out what surely is a sheet.

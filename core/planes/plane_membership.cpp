@@ -29,7 +29,8 @@ void PlaneMembership::list_regions(const CellTree& tree,
     cells_.push_back({tree.key(at, level_), points, first});
     std::uint32_t newest = kNoPatch;  // neighbours are mostly of one region
     for (std::uint32_t i = points.begin; i < points.end; ++i) {
-      if (region_of_point[i] == kNoPatch || region_of_point[i] == newest) continue;
+      if (region_of_point[i] == kNoPatch || region_of_point[i] == newest || shared_[i] != 0)
+        continue;
       newest = region_of_point[i];
       regions_.push_back(newest);
     }
@@ -74,7 +75,8 @@ void PlaneMembership::gather_candidates(std::size_t cell,
   distances_.resize(candidates_.size());
 }
 
-std::uint32_t PlaneMembership::judge(float x, float y, float z, std::vector<Support>& support) {
+PlaneMembership::Verdict PlaneMembership::judge(float x, float y, float z,
+                                                std::vector<Support>& support) {
   const std::size_t count = candidates_.size();
   std::size_t nearest = count;
   float least = reach_;
@@ -91,15 +93,15 @@ std::uint32_t PlaneMembership::judge(float x, float y, float z, std::vector<Supp
     if (!candidate.here || distances_[k] <= reach_ || distances_[k] > 2.0F * reach_) continue;
     if (own_points < kMuchLarger * candidate.points) ++support[candidate.region].outside;
   }
-  if (nearest == count) return kNoPatch;
+  if (nearest == count) return {kNoPatch, false};
+  // Those before it have more points.
+  const bool shared =
+      std::any_of(distances_.begin(), distances_.begin() + static_cast<std::ptrdiff_t>(nearest),
+                  [this](float d) { return d <= reach_; });
   Support& own = support[candidates_[nearest].region];
   ++own.points;
-  own.shared +=
-      std::any_of(distances_.begin(), distances_.begin() + static_cast<std::ptrdiff_t>(nearest),
-                  [this](float d) { return d <= reach_; })
-          ? 1U
-          : 0U;
-  return candidates_[nearest].region;
+  own.shared += shared ? 1U : 0U;
+  return {candidates_[nearest].region, shared};
 }
 
 void PlaneMembership::assign(const CellTree& tree, std::span<const PlaneMerger::Region> regions,
@@ -111,7 +113,9 @@ void PlaneMembership::assign(const CellTree& tree, std::span<const PlaneMerger::
     gather_candidates(cell, regions, support);
     const CellTree::Range points = cells_[cell].points;
     for (std::uint32_t i = points.begin; i < points.end; ++i) {
-      region_of_point[i] = judge(tree.x()[i], tree.y()[i], tree.z()[i], support);
+      const Verdict verdict = judge(tree.x()[i], tree.y()[i], tree.z()[i], support);
+      region_of_point[i] = verdict.region;
+      shared_[i] = verdict.shared ? 1 : 0;
     }
   }
 }

@@ -36,10 +36,14 @@ class PlaneMembership {
  public:
   explicit PlaneMembership(const PlaneOptions& options);
 
+  // Before the first assign() of a cloud.
+  void begin(const CellTree& tree) { shared_.assign(tree.size(), 0); }
+
   // Gives every point the nearest plane within reach (3 σ of the noise), of the regions that have
   // points in the point's cell (0.4 m by default) or in one beside it; kNoPatch when there is none.
-  // On entry `region_of_point` says where the regions are. `support` has
-  // one for each region: those of the round before on entry, new ones on return.
+  // On entry `region_of_point` says where the regions are; points that larger regions reach as well
+  // do not count for this, or a plane would creep along its intersections with others. `support`
+  // has one for each region: those of the round before on entry, new ones on return.
   void assign(const CellTree& tree, std::span<const PlaneMerger::Region> regions,
               Workspace<std::uint32_t>& region_of_point, std::vector<Support>& support);
 
@@ -59,8 +63,11 @@ class PlaneMembership {
   void list_regions(const CellTree& tree, const Workspace<std::uint32_t>& region_of_point);
   void gather_candidates(std::size_t cell, std::span<const PlaneMerger::Region> regions,
                          std::span<const Support> support);
-  // The region of the point.
-  [[nodiscard]] std::uint32_t judge(float x, float y, float z, std::vector<Support>& support);
+  struct Verdict {
+    std::uint32_t region;
+    bool shared;  // a region with more points reaches it as well
+  };
+  [[nodiscard]] Verdict judge(float x, float y, float z, std::vector<Support>& support);
 
   std::uint32_t level_;  // of the cells
   float reach_;
@@ -69,6 +76,7 @@ class PlaneMembership {
   std::vector<std::uint32_t> near_regions_;
   std::vector<Candidate> candidates_;  // with the most points first
   std::vector<float> distances_;       // of a point from each
+  Workspace<std::uint8_t> shared_;     // by point
 };
 
 }  // namespace convexcut

@@ -2,61 +2,63 @@
 #include "core/scan/levelling.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <span>
+
+#include "core/scan/rotation_kernel.hpp"
 
 namespace convexcut {
 namespace {
 
-using Rotation = Eigen::Matrix3f;
-
 // Writes the points of `scan` behind each other into `levelled`, which has been given their number.
 class Writer {
  public:
-  Writer(const Scan& scan, LevelledScan& levelled) noexcept : scan_(scan), levelled_(levelled) {
-    capacity_ =
-        std::min({scan.size(), levelled.x.capacity(), levelled.y.capacity(), levelled.z.capacity(),
-                  levelled.intensity.capacity(), levelled.ring.capacity(),
-                  levelled.time_ns.capacity(), levelled.label.capacity()});
+  Writer(const Scan& scan, LevelledScan& levelled) noexcept
+      : scan_(scan),
+        levelled_(levelled),
+        capacity_(std::min({scan.size(), levelled.x.capacity(), levelled.y.capacity(),
+                            levelled.z.capacity(), levelled.intensity.capacity(),
+                            levelled.ring.capacity(), levelled.time_ns.capacity(),
+                            levelled.label.capacity()})) {
     resize(capacity_);
   }
 
   void write(std::size_t first, std::size_t count, const Rotation& r_level_from_lidar) noexcept {
     const std::size_t fitting = std::min(count, capacity_ - written_);
     levelled_.overflow_returns += static_cast<std::uint32_t>(count - fitting);
-    rotate(first, fitting, r_level_from_lidar);
-    copy(scan_.intensity, first, fitting, levelled_.intensity);
-    copy(scan_.ring, first, fitting, levelled_.ring);
-    copy(scan_.time_ns, first, fitting, levelled_.time_ns);
+    if (run_count_ == runs_.size()) rotate_runs();
+    runs_[run_count_++] = {first, written_, fitting, r_level_from_lidar};
+    if (first != copy_end_) copy_columns();
+    if (copy_begin_ == copy_end_) copy_begin_ = copy_end_ = first;
+    copy_end_ += fitting;
     written_ += fitting;
   }
 
   void finish() noexcept {
+    rotate_runs();
+    copy_columns();
     resize(written_);
     std::fill(levelled_.label.begin(), levelled_.label.end(), Label::other);
   }
 
  private:
-  void rotate(std::size_t first, std::size_t count, const Rotation& r) noexcept {
-    // The arrays of two scans never overlap; saying so lets the loop be vectorised.
-    const float* __restrict x_lidar = scan_.x_lidar.data() + first;
-    const float* __restrict y_lidar = scan_.y_lidar.data() + first;
-    const float* __restrict z_lidar = scan_.z_lidar.data() + first;
-    float* __restrict x = levelled_.x.data() + written_;
-    float* __restrict y = levelled_.y.data() + written_;
-    float* __restrict z = levelled_.z.data() + written_;
-    const float xx = r(0, 0), xy = r(0, 1), xz = r(0, 2);
-    const float yx = r(1, 0), yy = r(1, 1), yz = r(1, 2);
-    const float zx = r(2, 0), zy = r(2, 1), zz = r(2, 2);
-    for (std::size_t i = 0; i < count; ++i) {
-      x[i] = xx * x_lidar[i] + xy * y_lidar[i] + xz * z_lidar[i];
-      y[i] = yx * x_lidar[i] + yy * y_lidar[i] + yz * z_lidar[i];
-      z[i] = zx * x_lidar[i] + zy * y_lidar[i] + zz * z_lidar[i];
-    }
+  void rotate_runs() noexcept {
+    rotate(std::span(runs_).first(run_count_), {scan_.x_lidar, scan_.y_lidar, scan_.z_lidar},
+           {levelled_.x, levelled_.y, levelled_.z});
+    run_count_ = 0;
   }
 
-  template <class Column>
-  void copy(const Column& from, std::size_t first, std::size_t count, Column& to) const noexcept {
-    std::copy_n(from.data() + first, count, to.data() + written_);
+  // Of the points [copy_begin_, copy_end_) of the scan, the last that were written.
+  void copy_columns() noexcept {
+    const std::size_t count = copy_end_ - copy_begin_;
+    const auto copy = [&](const auto& from, auto& to) noexcept {
+      std::copy_n(from.data() + copy_begin_, count, to.data() + (written_ - count));
+    };
+    copy(scan_.intensity, levelled_.intensity);
+    copy(scan_.ring, levelled_.ring);
+    copy(scan_.time_ns, levelled_.time_ns);
+    copy_begin_ = copy_end_;
   }
 
   void resize(std::size_t size) noexcept {
@@ -71,8 +73,13 @@ class Writer {
 
   const Scan& scan_;
   LevelledScan& levelled_;
-  std::size_t capacity_ = 0;
+  std::size_t capacity_;
   std::size_t written_ = 0;
+  // Firings mostly follow each other without a gap: the other columns are copied in few runs.
+  std::size_t copy_begin_ = 0;
+  std::size_t copy_end_ = 0;
+  std::array<RotatedRun, 64> runs_;
+  std::size_t run_count_ = 0;
 };
 
 void copy_header(const Scan& scan, HostTime stamp, LevelledScan& levelled) noexcept {
@@ -85,9 +92,13 @@ void copy_header(const Scan& scan, HostTime stamp, LevelledScan& levelled) noexc
   levelled.dropped_no_orientation = 0;
   levelled.overflow_returns = scan.overflow_returns;
   levelled.structure_points = 0;
+  levelled.position_m.reset();
 }
 
-Rotation to_matrix(const Quaternion& q) noexcept { return q.toRotationMatrix().cast<float>(); }
+Rotation to_matrix(const Quaternion& q) noexcept {
+  const Eigen::Matrix3f r = q.toRotationMatrix().cast<float>();
+  return {r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)};
+}
 
 }  // namespace
 

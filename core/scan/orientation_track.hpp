@@ -48,7 +48,10 @@ class OrientationTrack {
     return static_cast<std::size_t>(end_ - begin_);
   }
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
-  void clear() noexcept { begin_ = end_; }
+  void clear() noexcept {
+    begin_ = end_;
+    turn_ = {};
+  }
 
  private:
   struct Sample {
@@ -63,12 +66,28 @@ class OrientationTrack {
   // The number of the last sample at or before `time`, which is not before the oldest.
   [[nodiscard]] std::uint64_t last_not_after(HostTime time) const noexcept;
 
+  // From one sample to the next, which are at most max_age apart: the rotation between them, the
+  // short way, is one about a unit axis of the first one's frame by 2·half_angle. Found once for
+  // all queries between them.
+  struct Turn {
+    HostTime begin{};
+    HostTime end{};  // not after `begin`: none
+    Quaternion from = Quaternion::Identity();
+    Vec3 axis = Vec3::Zero();
+    double half_angle_per_ns = 0.0;
+
+    [[nodiscard]] bool covers(HostTime time) const noexcept { return time >= begin && time < end; }
+    [[nodiscard]] Quaternion at(HostTime time) const noexcept;
+  };
+  [[nodiscard]] static Turn turn_between(const Sample& from, const Sample& to) noexcept;
+
   std::vector<Sample> samples_;
   Duration max_age_;
   std::uint64_t begin_ = 0;
   std::uint64_t end_ = 0;
   std::uint64_t refused_ = 0;
   mutable std::uint64_t cursor_ = 0;
+  mutable Turn turn_;
 };
 
 }  // namespace convexcut

@@ -6,9 +6,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/cloud.hpp"
+#include "core/geometry.hpp"
 #include "core/time.hpp"
 
 namespace convexcut {
@@ -65,6 +67,9 @@ struct LevelledScan {
   std::uint32_t dropped_no_orientation = 0;  // points without an orientation at their firing time
   std::uint32_t overflow_returns = 0;
   std::uint32_t structure_points = 0;
+  // Of the lidar at the stamp, where poses are known: metres, in a frame that stands still and has
+  // the axes of level.
+  std::optional<Vec3> position_m;
 
   std::vector<float> x, y, z;  // frame level, metres
   std::vector<std::uint8_t> intensity;
@@ -83,6 +88,7 @@ struct LevelledScan {
     first_firing = {};
     coverage = 0.0;
     dropped_no_orientation = overflow_returns = structure_points = 0;
+    position_m.reset();
     x.clear();
     y.clear();
     z.clear();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 namespace convexcut {
@@ -65,20 +66,24 @@ void ScanCutter::push(const ReturnBatch& batch, LidarTime first_firing, OnScan o
   firing_period_ = Duration{batch.firing_period_ns};
 
   const std::uint64_t glitches = rotor_.glitches();
+  const bool all = selects_all(batch);
   for (std::size_t i = 0; i < batch.firing_count; ++i) {
     const Firing& firing = batch.firings[i];
     // A sensor clock that is being disciplined may let two batches overlap by microseconds.
     firing_time_ = std::max(firing_time_, first_firing + Duration{firing.offset_ns});
     const std::int64_t sector = sector_of(firing, firing_time_);
     if (open_ && sector > sector_) {
+      copy_run(batch);
       end(ScanEnd::cut, on_scan);
     } else if (open_ && options_.mode == CutOptions::Mode::revolution &&
                firing_time_ - scan_.first_firing >= options_.timeout) {
+      copy_run(batch);
       end(ScanEnd::timeout, on_scan);
     }
     if (!open_) begin(firing_time_, sector);
-    add(batch, firing, firing_time_);
+    add(batch, firing, firing_time_, all);
   }
+  copy_run(batch);
   counters_.azimuth_glitches.add(rotor_.glitches() - glitches);
 }
 
@@ -123,43 +128,51 @@ std::int64_t ScanCutter::sector_of(const Firing& firing, LidarTime time) noexcep
   return floor_divide(turned - options_.cut_azimuth.microdegrees(), Azimuth::kFullTurn);
 }
 
-void ScanCutter::add(const ReturnBatch& batch, const Firing& firing, LidarTime time) noexcept {
+void ScanCutter::add(const ReturnBatch& batch, const Firing& firing, LidarTime time,
+                     bool all) noexcept {
   scan_.last_firing = time;
   const bool has_room = scan_.firings.size() < max_firings_;
-  const auto first_in_scan = static_cast<std::uint32_t>(scan_.size());
-  // Mostly all returns of a firing are wanted: one run.
+  const auto first_in_scan = static_cast<std::uint32_t>(returns());
   const std::size_t last = std::size_t{firing.first_return} + firing.return_count;
   std::size_t begin = firing.first_return;
   while (begin < last) {
-    std::size_t end = begin;
+    std::size_t end = all ? last : begin;
     while (end < last && selects(batch, end)) ++end;
-    add_run(batch, begin, end, has_room ? max_returns_ - scan_.size() : 0);
+    add_run(batch, begin, end, has_room ? max_returns_ - returns() : 0);
     begin = end + 1;  // the one that is not wanted
   }
   if (!has_room) return;
   scan_.firings.push_back(
-      {time, first_in_scan, static_cast<std::uint32_t>(scan_.size()) - first_in_scan});
+      {time, first_in_scan, static_cast<std::uint32_t>(returns()) - first_in_scan});
 }
 
 void ScanCutter::add_run(const ReturnBatch& batch, std::size_t begin, std::size_t end,
                          std::size_t room) noexcept {
   const std::size_t count = std::min(end - begin, room);
   scan_.overflow_returns += static_cast<std::uint32_t>(end - begin - count);
-  const auto append = [begin, count](auto& to, const auto& from) {
-    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin),
-              from.begin() + static_cast<std::ptrdiff_t>(begin + count));
+  if (begin != run_end_) copy_run(batch);
+  if (run_begin_ == run_end_) run_begin_ = run_end_ = begin;
+  run_end_ += count;
+}
+
+void ScanCutter::copy_run(const ReturnBatch& batch) noexcept {
+  const auto append = [this](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(run_begin_),
+              from.begin() + static_cast<std::ptrdiff_t>(run_end_));
   };
   append(scan_.x_lidar, batch.x_lidar);
   append(scan_.y_lidar, batch.y_lidar);
   append(scan_.z_lidar, batch.z_lidar);
   append(scan_.intensity, batch.intensity);
   append(scan_.ring, batch.ring);
+  const std::size_t first = scan_.time_ns.size();
+  append(scan_.time_ns, batch.offset_ns);
   const std::int64_t batch_after_scan = (batch_time_ - scan_.first_firing).count();
-  for (std::size_t i = begin; i < begin + count; ++i) {
+  for (std::uint32_t& time_ns : std::span(scan_.time_ns).subspan(first)) {
     // Negative only in batches that overlap.
-    const std::int64_t after = std::max<std::int64_t>(batch_after_scan + batch.offset_ns[i], 0);
-    scan_.time_ns.push_back(static_cast<std::uint32_t>(after));
+    time_ns = static_cast<std::uint32_t>(std::max<std::int64_t>(batch_after_scan + time_ns, 0));
   }
+  run_begin_ = run_end_ = 0;
 }
 
 bool ScanCutter::selects(const ReturnBatch& batch, std::size_t i) const noexcept {
@@ -175,6 +188,21 @@ bool ScanCutter::selects(const ReturnBatch& batch, std::size_t i) const noexcept
       return true;
   }
   return true;
+}
+
+// Whether selects() holds for all returns: it mostly does. Without branches, to be vectorised.
+bool ScanCutter::selects_all(const ReturnBatch& batch) const noexcept {
+  const std::size_t count = batch.return_count;
+  unsigned unwanted = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    unwanted |= static_cast<unsigned>(batch.range_m[i] < min_range_m_) |
+                static_cast<unsigned>(batch.range_m[i] > max_range_m_);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    // A dual-return echo: the options tell.
+    unwanted |= static_cast<unsigned>(batch.echo[i] != Echo::only);
+  }
+  return unwanted == 0;
 }
 
 // What a whole scan would have had, from this scan's own steps where it has enough of them.

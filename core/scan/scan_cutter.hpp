@@ -80,11 +80,19 @@ class ScanCutter {
   void end(ScanEnd why, OnScan on_scan) noexcept;
   // Revolution: turns past the cut azimuth. Clock: windows since the epoch of LidarTime.
   [[nodiscard]] std::int64_t sector_of(const Firing& firing, LidarTime time) noexcept;
-  void add(const ReturnBatch& batch, const Firing& firing, LidarTime time) noexcept;
+  // all: selects_all(batch).
+  void add(const ReturnBatch& batch, const Firing& firing, LidarTime time, bool all) noexcept;
   // Adds the batch's returns [begin, end), of which `room` have a place.
   void add_run(const ReturnBatch& batch, std::size_t begin, std::size_t end,
                std::size_t room) noexcept;
+  // Copies the run that is still to be.
+  void copy_run(const ReturnBatch& batch) noexcept;
   [[nodiscard]] bool selects(const ReturnBatch& batch, std::size_t i) const noexcept;
+  [[nodiscard]] bool selects_all(const ReturnBatch& batch) const noexcept;
+  // With the run that is still to be copied.
+  [[nodiscard]] std::size_t returns() const noexcept {
+    return scan_.size() + (run_end_ - run_begin_);
+  }
   void measure_rotor() noexcept;
 
   CutOptions options_;
@@ -98,6 +106,10 @@ class ScanCutter {
   std::uint64_t next_index_ = 0;
   std::int64_t sector_ = 0;  // of the open scan
   Sweep sweep_at_begin_;     // of it
+  // Returns of the batch at hand that are in the open scan and not yet copied: firings follow each
+  // other, and a batch is mostly one run.
+  std::size_t run_begin_ = 0;
+  std::size_t run_end_ = 0;
 
   bool started_ = false;
   LidarTime batch_time_{};    // first firing of the newest batch

@@ -65,6 +65,12 @@ void RecordingArguments::add_to(CLI::App& app, bool lidar_required) {
       ->type_name("SECONDS");
 }
 
+void RecordingArguments::add_poses_to(CLI::App& app) {
+  app.add_option("--poses", paths.poses,
+                 "Poses of the lidar for method robust: CSV stamp_ns,x,y,z,qx,qy,qz,qw")
+      ->type_name("FILE");
+}
+
 int run_program(CLI::App& root, int argc, char** argv, const std::function<int()>& run) {
   try {
     root.parse(argc, argv);

@@ -36,6 +36,8 @@ struct RecordingArguments {
   daemon::RecordingPaths paths;
 
   void add_to(CLI::App& app, bool lidar_required);
+  // --poses, of programs that use them.
+  void add_poses_to(CLI::App& app);
 };
 
 // A program's body: parses, runs, and turns exceptions into one line on stderr and an exit status.

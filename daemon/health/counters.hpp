@@ -13,6 +13,8 @@ struct HealthCounters {
   std::uint64_t empty_results = 0;
   std::uint64_t late_results = 0;
   std::uint64_t dropped_scans = 0;
+  std::uint64_t reduced_scans = 0;
+  std::uint64_t unturned_scans = 0;
   std::uint64_t points_without_orientation = 0;
   std::uint64_t late_packets = 0;
   std::uint64_t ring_overruns = 0;
@@ -31,13 +33,17 @@ struct CounterInfo {
   std::string_view loss;
 };
 
-inline constexpr std::array<CounterInfo, 11> kHealthCounters{{
+inline constexpr std::array<CounterInfo, 13> kHealthCounters{{
     {&HealthCounters::results, "results", "Scans published, empty ones included", ""},
     {&HealthCounters::empty_results, "empty_results", "Results published without lidar data", ""},
     {&HealthCounters::late_results, "late_results", "Scans published after worker.latency_ms",
      "results late"},
     {&HealthCounters::dropped_scans, "dropped_scans", "Scans dropped because publishing was behind",
      "scans dropped"},
+    {&HealthCounters::reduced_scans, "reduced_scans",
+     "Scans computed with less than the configured effort because time was short", "scans reduced"},
+    {&HealthCounters::unturned_scans, "unturned_scans",
+     "Scans without a whole revolution: the rotor stands or turns too slowly", "lidar not turning"},
     {&HealthCounters::points_without_orientation, "points_without_orientation",
      "Points dropped because no orientation was known at their time", "orientations missing"},
     {&HealthCounters::late_packets, "late_packets",

@@ -130,6 +130,10 @@ bool Pipeline::level_next(HostTime now, LevelledScan& out) noexcept {
   const WaitingScan& waiting = waiting_[first_waiting_];
   if (!ready(waiting, now)) return false;
   level_scan(waiting, out);
+  if (options_.positions) {
+    out.position_m = options_.positions->at(out.stamp);
+    scans_without_position_ += out.position_m ? 0U : 1U;
+  }
   scan_period_ = period_after(waiting.scan);
   pop_waiting();
   return true;
@@ -140,7 +144,7 @@ void Pipeline::cut(LevelledScan& scan) noexcept {
   // ever, every point would keep the label `other`.
   if (robust_) {
     const std::uint32_t window = options_.robust.window / window_divisor(effort_);
-    static_cast<void>(robust_->label(scan.cloud(), scan.label, std::nullopt, window));
+    static_cast<void>(robust_->label(scan.cloud(), scan.label, scan.position_m, window));
   } else {
     static_cast<void>(engine_->label(scan.cloud(), scan.label, plane_stride(effort_)));
   }

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "config/config.hpp"
@@ -26,6 +27,7 @@
 #include "core/scan/levelling.hpp"
 #include "core/scan/orientation_track.hpp"
 #include "core/scan/packet_sequencer.hpp"
+#include "core/scan/position_track.hpp"
 #include "core/scan/scan.hpp"
 #include "core/scan/scan_cutter.hpp"
 #include "core/scan/stage.hpp"
@@ -67,6 +69,8 @@ struct PipelineOptions {
   StageUse stage_use = StageUse::none;
   StageAxis stage_axis = StageAxis::rotation;
   Duration stage_max_age = std::chrono::milliseconds{100};
+  // Of a recording whose poses are known beforehand; none: no scan has a position.
+  std::shared_ptr<const PositionTrack> positions{};
   // How long after its last firing a scan waits for the orientation of its last points.
   Duration orientation_wait = std::chrono::milliseconds{50};
 };
@@ -138,6 +142,10 @@ class Pipeline {
     return orientations_refused_;
   }
   [[nodiscard]] std::uint64_t orientations() const noexcept { return orientations_; }
+  // Of those that level_next() gave, though there are poses.
+  [[nodiscard]] std::uint64_t scans_without_position() const noexcept {
+    return scans_without_position_;
+  }
   [[nodiscard]] std::uint64_t stage_angles() const noexcept { return stage_angles_; }
   [[nodiscard]] std::uint64_t stage_angles_refused() const noexcept {
     return stage_angles_refused_;
@@ -190,6 +198,7 @@ class Pipeline {
   std::uint64_t scans_dropped_ = 0;
   std::uint64_t orientations_ = 0;
   std::uint64_t orientations_refused_ = 0;
+  std::uint64_t scans_without_position_ = 0;
   std::uint64_t stage_angles_ = 0;
   std::uint64_t stage_angles_refused_ = 0;
 };

@@ -114,6 +114,7 @@ udp::UdpSourceOptions udp_source_options(const config::Lidar& lidar) {
   options.socket.local_address = address(lidar.local_address);
   options.socket.multicast_group = address(lidar.multicast_group);
   options.socket.interface = lidar.interface;
+  options.gather = std::chrono::microseconds{lidar.gather_us};
   options.socket.receive_buffer_bytes = static_cast<std::size_t>(lidar.receive_buffer_kib) * kKib;
   return options;
 }

@@ -5,8 +5,14 @@
 #include <stdexcept>
 
 #include "config/loader.hpp"
+#include "drivers/recording/pose_file.hpp"
 
 namespace convexcut::daemon {
+
+std::shared_ptr<const PositionTrack> recorded_positions(const RecordingPaths& paths) {
+  if (paths.poses.empty()) return nullptr;
+  return std::make_shared<const PositionTrack>(recording::read_poses(paths.poses));
+}
 
 Recordings::Recordings(const RecordingPaths& paths, const config::Config& config,
                        Sink<ReturnBatch>& returns, Sink<ImuSample>& samples,

@@ -13,6 +13,7 @@
 #include "core/encoder_sample.hpp"
 #include "core/imu_sample.hpp"
 #include "core/return_batch.hpp"
+#include "core/scan/position_track.hpp"
 #include "core/sink.hpp"
 #include "daemon/sources/driver_options.hpp"
 #include "daemon/sources/null_sink.hpp"
@@ -24,11 +25,16 @@ namespace convexcut::daemon {
 
 struct RecordingPaths {
   std::filesystem::path lidar;
-  std::filesystem::path imu;  // empty: none
-  std::filesystem::path can;  // empty: none
+  std::filesystem::path imu;    // empty: none
+  std::filesystem::path can;    // empty: none
+  std::filesystem::path poses;  // of the lidar in a world; empty: none
   // Of a raw .bin IMU stream: its first sample, relative to the first lidar packet.
   Duration imu_start{0};
 };
+
+// The way of the lidar by the poses of a recording; null when there are none. Throws
+// std::runtime_error of one line.
+[[nodiscard]] std::shared_ptr<const PositionTrack> recorded_positions(const RecordingPaths& paths);
 
 // What to say of a recording that was read without finding any: one line.
 [[nodiscard]] std::string no_lidar_packets(const std::filesystem::path& file,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <ctime>
 #include <utility>
 
 #include <poll.h>
@@ -92,9 +93,15 @@ void UdpSource::wait_for_input(Duration wait) noexcept {
   for (std::size_t port = 0; port < kPorts; ++port) {
     polls[port] = {sockets_[port].fd(), POLLIN, 0};
   }
+  const Duration gathering = came_ ? std::min(options_.gather, wait) : Duration{0};
+  if (gathering > Duration{0}) {
+    const std::timespec pause = live::to_timespec(gathering);
+    ::clock_nanosleep(CLOCK_MONOTONIC, 0, &pause, nullptr);
+  }
   const std::timespec timeout = live::to_timespec(std::max(wait, Duration{0}));
   const int ready = ::ppoll(polls.data(), polls.size(), &timeout, nullptr);
-  if (ready <= 0) return;  // nothing came, or a signal did
+  came_ = ready > 0;
+  if (!came_) return;  // nothing came, or a signal did
   for (std::size_t port = 0; port < kPorts && is_open(); ++port) {
     if (polls[port].revents != 0) drain(port);
   }

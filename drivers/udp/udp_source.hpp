@@ -23,6 +23,9 @@ struct UdpSourceOptions {
   std::uint16_t data_port = velodyne::wire_layout::kDataPort;
   std::uint16_t position_port = velodyne::wire_layout::kPositionPort;
   UdpSocketOptions socket{};
+  // While datagrams come, this long is waited before they are taken together: fewer wake-ups for as
+  // much more delay. Stamps are the kernel's and do not change.
+  Duration gather{};
 };
 
 struct UdpCounters {
@@ -79,6 +82,7 @@ class UdpSource final : public live::LiveSource {
   UdpCounters counters_;
   std::atomic<std::size_t> granted_buffer_{0};  // pairs with receive_buffer_bytes()
   int interface_index_ = 0;                     // that the sockets are bound to
+  bool came_ = false;                           // something, in the last wait
   std::array<UdpSocket, kPorts> sockets_;
   DatagramBatch batch_;
 };

@@ -18,8 +18,9 @@ std::int32_t signed_difference(std::int32_t to, std::int32_t from) noexcept {
 
 // Recordings show ±2 of encoder rounding at any speed; a quarter more leaves room for a rotor that
 // speeds up.
+constexpr std::int32_t kLeastGlitch = 5;
 bool is_glitch(std::int32_t step, std::int32_t median) noexcept {
-  return std::abs(step - median) > 5 + std::abs(median) / 4;
+  return std::abs(step - median) > kLeastGlitch + std::abs(median) / 4;
 }
 
 }  // namespace
@@ -32,6 +33,13 @@ AzimuthSteps azimuth_steps(std::span<const std::uint16_t> azimuths,
   for (std::size_t i = 0; i < differences; ++i) {
     steps[i] = signed_difference(azimuths[i + 1], azimuths[i]);
   }
+  steps[differences] = steps[differences - 1];
+  const auto all = std::span(steps).first(differences);
+  const auto [least, most] = std::ranges::minmax(all);
+  // So near to each other that none can be a glitch, whatever the median.
+  const bool alike = most - least <= kLeastGlitch;
+  if (alike && most <= max_step && least >= -max_step) return steps;
+
   AzimuthSteps sorted = steps;
   std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(differences));
   const std::int32_t median = sorted[differences / 2];

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/velodyne/decoder.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <span>
-#include <utility>
 
 #include "core/angle.hpp"
 #include "drivers/velodyne/sin_cos.hpp"
@@ -22,40 +23,19 @@ SinCos sin_cos_mdeg(std::int32_t millidegrees) noexcept {
   return sin_cos(Azimuth::from_microdegrees(std::int64_t{millidegrees} * 1000));
 }
 
-struct WireReturn {
-  std::uint16_t ticks;
-  std::uint8_t intensity;
-};
-
-WireReturn load_return(wire::Bytes block, std::size_t slot) noexcept {
-  const std::size_t at = kBlockReturns + slot * kReturnSize;
-  return {wire::load_le<std::uint16_t>(block, at + kReturnDistance),
-          wire::load_u8(block, at + kReturnIntensity)};
-}
-
-// The line of a laser pulse: where its returns are, by range.
-struct Beam {
-  double x_per_range;
-  double y_per_range;
-  double z_per_range;
-  double z_offset_m;
-  std::uint32_t offset_ns;
-  std::uint8_t ring;
-};
-
-void append(const Beam& beam, WireReturn wire_return, double metres_per_tick, Echo echo,
-            bool farthest, ReturnBatch& out) noexcept {
-  const double range = wire_return.ticks * metres_per_tick;
-  const std::size_t i = out.return_count++;
-  out.x_lidar[i] = static_cast<float>(range * beam.x_per_range);
-  out.y_lidar[i] = static_cast<float>(range * beam.y_per_range);
-  out.z_lidar[i] = static_cast<float>(range * beam.z_per_range + beam.z_offset_m);
-  out.range_m[i] = static_cast<float>(range);
-  out.offset_ns[i] = beam.offset_ns;
-  out.intensity[i] = wire_return.intensity;
-  out.ring[i] = beam.ring;
-  out.echo[i] = echo;
-  out.farthest[i] = farthest;
+// One echo of slot `i`, as returns are appended one by one.
+void append(const BlockReturns& from, std::size_t i, std::uint32_t offset_ns, std::uint32_t ring,
+            Echo echo, bool farthest, ReturnBatch& out) noexcept {
+  const std::size_t end = out.return_count++;
+  out.x_lidar[end] = from.x_lidar[i];
+  out.y_lidar[end] = from.y_lidar[i];
+  out.z_lidar[end] = from.z_lidar[i];
+  out.range_m[end] = from.range_m[i];
+  out.offset_ns[end] = offset_ns;
+  out.intensity[end] = from.intensity[i];
+  out.ring[end] = static_cast<std::uint8_t>(ring);
+  out.echo[end] = echo;
+  out.farthest[end] = farthest;
 }
 
 }  // namespace
@@ -68,31 +48,31 @@ struct DataDecoder::Block {
   std::int64_t step_udeg = 0;
   std::uint32_t start_ns = 0;
 
-  // To the nearest microdegree.
-  [[nodiscard]] Azimuth rotor_at(const Slot& slot) const noexcept {
-    const std::int64_t turned = (step_udeg * slot.block_share_q32 + kOneQ32 / 2) >> 32;
-    return Azimuth::from_microdegrees(azimuth_udeg + turned);
+  [[nodiscard]] BlockSweep sweep() const noexcept {
+    return {static_cast<double>(azimuth_udeg), static_cast<double>(step_udeg)};
   }
 };
 
 DataDecoder::DataDecoder(const Model& model, DecoderOptions options) noexcept
     : model_(model),
-      metres_per_tick_(model.distance_unit_mm * 1e-3),
       max_step_(static_cast<std::int32_t>(kMaxRotorHz * kMaxAzimuth * model.block_period_ns() /
                                           1'000'000'000)) {
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
+  slots_.metres_per_tick = model.distance_unit_mm * 1e-3;
+  for (std::size_t i = 0; i < kReturnsPerBlock; ++i) {
     const std::size_t laser = i % model.lasers;
     const auto firing = static_cast<std::uint32_t>(i / model.lasers);
-    Slot& slot = slots_[i];
-    slot.time_ns = firing * model.firing_period_ns + model.laser_time_ns(laser);
-    slot.block_share_q32 =
-        (slot.time_ns * kOneQ32 + model.block_period_ns() / 2) / model.block_period_ns();
+    slots_.time_ns[i] = firing * model.firing_period_ns + model.laser_time_ns(laser);
+    share_q32_[i] =
+        (slots_.time_ns[i] * kOneQ32 + model.block_period_ns() / 2) / model.block_period_ns();
+    slots_.block_share[i] = static_cast<double>(share_q32_[i]) / static_cast<double>(kOneQ32);
     const SinCos elevation = sin_cos_mdeg(model.elevation_mdeg[laser]);
-    slot.cos_elevation = elevation.cos;
-    slot.sin_elevation = elevation.sin;
-    if (options.vertical_offsets) slot.vertical_offset_m = model.vertical_offset_um[laser] * 1e-6;
-    slot.azimuth_offset_udeg = model.azimuth_offset_mdeg[laser] * 1000;
-    slot.ring = model.ring[laser];
+    slots_.cos_elevation[i] = elevation.cos;
+    slots_.sin_elevation[i] = elevation.sin;
+    if (options.vertical_offsets) {
+      slots_.vertical_offset_m[i] = model.vertical_offset_um[laser] * 1e-6;
+    }
+    slots_.azimuth_offset_udeg[i] = model.azimuth_offset_mdeg[laser] * 1000;
+    slots_.ring[i] = model.ring[laser];
   }
 }
 
@@ -129,46 +109,63 @@ void DataDecoder::decode_blocks(wire::Bytes payload, ReturnBatch& out) const noe
         .step_udeg = std::int64_t{steps[i]} * Azimuth::kPerCentidegree,
         .start_ns = static_cast<std::uint32_t>(i) * model_.block_period_ns(),
     };
-    for (std::size_t slot = 0; slot < kReturnsPerBlock; slot += model_.lasers) {
-      decode_firing<kDual>(block, slot, out);
+    if constexpr (kDual) {
+      decode_pair(block, out);
+    } else {
+      decode_single(block, out);
     }
   }
 }
 
-template <bool kDual>
-void DataDecoder::decode_firing(const Block& block, std::size_t first_slot,
-                                ReturnBatch& out) const noexcept {
+// Its azimuth to the nearest microdegree, as locate() has it of lasers.
+Firing& DataDecoder::begin_firing(const Block& block, std::size_t first_slot,
+                                  ReturnBatch& out) const noexcept {
   Firing& firing = out.firings[out.firing_count++];
-  firing.azimuth = block.rotor_at(slots_[first_slot]);
-  firing.offset_ns = block.start_ns + slots_[first_slot].time_ns;
+  const std::int64_t turned = (block.step_udeg * share_q32_[first_slot] + kOneQ32 / 2) >> 32;
+  firing.azimuth = Azimuth::from_microdegrees(block.azimuth_udeg + turned);
+  firing.offset_ns = block.start_ns + slots_.time_ns[first_slot];
   firing.first_return = out.return_count;
-  for (std::size_t i = first_slot; i < first_slot + model_.lasers; ++i) {
-    WireReturn last = load_return(block.last, i);
-    WireReturn strongest{};
-    if constexpr (kDual) {
-      strongest = load_return(block.strongest, i);
-      if (last.ticks == 0) std::swap(last, strongest);
-      if (strongest.ticks == last.ticks) strongest.ticks = 0;
-    }
-    if (last.ticks == 0) continue;
+  return firing;
+}
 
-    const Slot& slot = slots_[i];
-    const SinCos azimuth = sin_cos(Azimuth::from_microdegrees(
-        std::int64_t{block.rotor_at(slot).microdegrees()} + slot.azimuth_offset_udeg));
-    const Beam beam{.x_per_range = slot.cos_elevation * azimuth.cos,
-                    .y_per_range = -slot.cos_elevation * azimuth.sin,
-                    .z_per_range = slot.sin_elevation,
-                    .z_offset_m = slot.vertical_offset_m,
-                    .offset_ns = block.start_ns + slot.time_ns,
-                    .ring = slot.ring};
-    if (!kDual || strongest.ticks == 0) {
-      append(beam, last, metres_per_tick_, Echo::only, true, out);
-    } else {
-      append(beam, last, metres_per_tick_, Echo::last, last.ticks > strongest.ticks, out);
-      append(beam, strongest, metres_per_tick_, Echo::strongest, strongest.ticks > last.ticks, out);
-    }
+void DataDecoder::decode_single(const Block& block, ReturnBatch& out) const noexcept {
+  BlockReturns returns;
+  locate(slots_, block.sweep(), block.last, returns);
+  std::uint32_t next = out.return_count;
+  const std::uint32_t echoes = append_echoes(slots_, returns, block.start_ns, out);
+  std::fill(out.echo.begin() + next, out.echo.begin() + out.return_count, Echo::only);
+  std::fill(out.farthest.begin() + next, out.farthest.begin() + out.return_count, true);
+  const std::uint64_t of_a_firing = (std::uint64_t{1} << model_.lasers) - 1;
+  for (std::size_t slot = 0; slot < kReturnsPerBlock; slot += model_.lasers) {
+    Firing& firing = begin_firing(block, slot, out);
+    const int count = std::popcount((echoes >> slot) & of_a_firing);
+    firing.first_return = static_cast<std::uint16_t>(next);
+    firing.return_count = static_cast<std::uint16_t>(count);
+    next += firing.return_count;
   }
-  firing.return_count = static_cast<std::uint16_t>(out.return_count - firing.first_return);
+}
+
+void DataDecoder::decode_pair(const Block& block, ReturnBatch& out) const noexcept {
+  BlockReturns last;
+  BlockReturns strongest;
+  locate(slots_, block.sweep(), block.last, last);
+  locate(slots_, block.sweep(), block.strongest, strongest);
+  for (std::size_t slot = 0; slot < kReturnsPerBlock; slot += model_.lasers) {
+    Firing& firing = begin_firing(block, slot, out);
+    for (std::size_t i = slot; i < slot + model_.lasers; ++i) {
+      const std::uint32_t offset_ns = block.start_ns + slots_.time_ns[i];
+      const std::uint32_t ring = slots_.ring[i];
+      const std::uint16_t a = last.ticks[i];
+      const std::uint16_t b = strongest.ticks[i];
+      if (a != 0 && b != 0 && a != b) {
+        append(last, i, offset_ns, ring, Echo::last, a > b, out);
+        append(strongest, i, offset_ns, ring, Echo::strongest, b > a, out);
+      } else if (a != 0 || b != 0) {
+        append(a != 0 ? last : strongest, i, offset_ns, ring, Echo::only, true, out);
+      }
+    }
+    firing.return_count = static_cast<std::uint16_t>(out.return_count - firing.first_return);
+  }
 }
 
 }  // namespace convexcut::velodyne

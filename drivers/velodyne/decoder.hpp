@@ -9,6 +9,7 @@
 
 #include "core/return_batch.hpp"
 #include "drivers/velodyne/azimuth_steps.hpp"
+#include "drivers/velodyne/block_kernels.hpp"
 #include "drivers/velodyne/data_packet.hpp"
 #include "drivers/velodyne/model.hpp"
 #include "drivers/wire.hpp"
@@ -48,27 +49,18 @@ class DataDecoder {
   [[nodiscard]] const Model& model() const noexcept { return model_; }
 
  private:
-  // What is constant of one of the 32 returns of a block.
-  struct Slot {
-    double cos_elevation = 1.0;
-    double sin_elevation = 0.0;
-    double vertical_offset_m = 0.0;
-    std::int64_t block_share_q32 = 0;  // of the block period that passes before it fires, × 2³²
-    std::int32_t azimuth_offset_udeg = 0;
-    std::uint32_t time_ns = 0;  // after the block's first laser
-    std::uint8_t ring = 0;
-  };
   struct Block;
 
   template <bool kDual>
   void decode_blocks(wire::Bytes payload, ReturnBatch& out) const noexcept;
-  template <bool kDual>
-  void decode_firing(const Block& block, std::size_t first_slot, ReturnBatch& out) const noexcept;
+  void decode_single(const Block& block, ReturnBatch& out) const noexcept;
+  void decode_pair(const Block& block, ReturnBatch& out) const noexcept;
+  Firing& begin_firing(const Block& block, std::size_t first_slot, ReturnBatch& out) const noexcept;
 
   Model model_;
-  double metres_per_tick_;
   std::int32_t max_step_;  // 0.01° a block
-  std::array<Slot, wire_layout::kReturnsPerBlock> slots_{};
+  SlotTable slots_;
+  SlotTable::Column<std::int64_t> share_q32_{};  // slots_.block_share × 2³²
 };
 
 }  // namespace convexcut::velodyne

@@ -52,10 +52,13 @@ struct PatchCounts {
                                         std::span<const std::uint32_t> output_patch,
                                         std::span<const simulation::SurfaceLabel> truth);
 
+// What counts as a patch: smaller ones say more about the extractor than about the cloud.
+inline constexpr PlaneOptions kJudgedPatches{.least_patch_points = 100, .least_patch_width_m = 0.2};
+
 // Extracts the patches of both clouds. The workspace is kept from scan to scan.
 class PatchJudge {
  public:
-  explicit PatchJudge(const PlaneOptions& options = {});
+  explicit PatchJudge(const PlaneOptions& options = kJudgedPatches);
 
   // Takes the patches of an input cloud; then any number of results can be judged by it. The truth
   // is copied. Throws std::invalid_argument when the spans differ in length.

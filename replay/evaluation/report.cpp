@@ -51,7 +51,9 @@ constexpr std::size_t kMostSurfaces = 10;  // in the table
     if (++shown > kMostSurfaces) break;
     const SurfaceCounts& counts = evaluation.by_surface[surface];
     text += format("%-28s %-9s %10s %10s %6.1f %%\n", surface_name(evaluation, surface).c_str(),
-                   std::string(name_of(evaluation.settings.surfaces[surface].label)).c_str(),
+                   std::string(simulation::name_in(simulation::kLabelNames,
+                                                   evaluation.settings.surfaces[surface].label))
+                       .c_str(),
                    replay::grouped(counts.points).c_str(), replay::grouped(counts.wrong).c_str(),
                    100.0 * static_cast<double>(counts.wrong) / static_cast<double>(counts.points));
   }
@@ -126,7 +128,8 @@ constexpr std::size_t kMostSurfaces = 10;  // in the table
     if (counts.points == 0) continue;
     surfaces.emplace_back()
         .add("name", surface_name(evaluation, i))
-        .add("label", name_of(evaluation.settings.surfaces[i].label))
+        .add("label",
+             simulation::name_in(simulation::kLabelNames, evaluation.settings.surfaces[i].label))
         .add("points", counts.points)
         .add("kept", counts.kept)
         .add("wrong", counts.wrong);

@@ -132,7 +132,9 @@ th{font-weight:600;text-align:right;color:#6b6f76}th:first-child,td:first-child,
     const SurfaceCounts& counts = evaluation.by_surface[order[k]];
     const double share = static_cast<double>(counts.wrong) / static_cast<double>(all);
     html += "<tr><td>" + escaped(surface_name(evaluation, order[k])) + "</td><td class=name>" +
-            std::string(name_of(evaluation.settings.surfaces[order[k]].label)) + "</td>";
+            std::string(simulation::name_in(simulation::kLabelNames,
+                                            evaluation.settings.surfaces[order[k]].label)) +
+            "</td>";
     html += format(
         "<td>%s</td><td>%s</td><td>%.1f %%</td><td>%.1f %%</td><td class=name>"
         "<span class=bar style='width:%.0fpx'></span></td></tr>\n",

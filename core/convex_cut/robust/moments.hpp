@@ -4,6 +4,7 @@
 // from the voxel's centre), so that what was added can be taken away again without a trace.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -47,7 +48,8 @@ struct Moments {
 
  private:
   [[nodiscard]] static std::int32_t millimetres(float metres) noexcept {
-    return static_cast<std::int32_t>(std::lrint(metres * 1e3F));
+    // A coordinate of kilometres is rounded by more than a voxel: the sums still must not overflow.
+    return static_cast<std::int32_t>(std::lrint(std::clamp(metres, -0.2F, 0.2F) * 1e3F));
   }
 };
 

@@ -15,12 +15,17 @@ constexpr double kOffPlane = 0.03;
 constexpr double kMiddleShare = 0.4;
 constexpr double kRimShare = 0.15;
 
+// Whether a ray that met `other`, or nothing, met the plane that the laser's middle ray met.
 bool same_plane(const Column& own, std::size_t laser, bool other_met, const Hit& other,
                 const Vec3& other_point) noexcept {
   const Hit& hit = own.hits[laser];
   if (!other_met || !own.met[laser]) return other_met == own.met[laser];
   return other.surface == hit.surface &&
          std::abs(hit.normal.dot(other_point - own.points[laser])) < kOffPlane;
+}
+
+bool same_plane(const Column& own, std::size_t laser, const Column& column, std::size_t other) {
+  return same_plane(own, laser, column.met[other], column.hits[other], column.points[other]);
 }
 
 }  // namespace
@@ -38,10 +43,29 @@ Beam::Beam(Radians divergence) : radius_(0.5 * divergence.value) {
   }
 }
 
-void Beam::add_echoes(const Neighbourhood& around, std::size_t laser, const SceneAt& scene,
-                      const Optics& optics, Echoes& echoes) const noexcept {
+Beam::UprightSides Beam::upright_sides(const Column& column, const SceneAt& scene) const noexcept {
+  UprightSides found{};
+  if (radius_ <= 0.0) return found;
+  const Neighbourhood around{column, column, column};
+  for (std::size_t laser = 0; laser < Column::kLasers; ++laser) {
+    for (const std::size_t side : {kBelow, kAbove}) {
+      const std::size_t other = side == kBelow ? below_[laser] : above_[laser];
+      if (other == kNone || same_plane(column, laser, column, other)) continue;
+      Rims rims;
+      if (finds_edge(around, laser, 1U << side, scene, rims)) found[laser] |= 1U << side;
+    }
+  }
+  return found;
+}
+
+void Beam::add_echoes(const Neighbourhood& around, std::size_t laser, Sides upright,
+                      const SceneAt& scene, const Optics& optics, Echoes& echoes) const noexcept {
   const Column& own = around.own;
-  const unsigned sides = radius_ > 0.0 ? differing_sides(around, laser) : 0;
+  Sides sides = upright;
+  if (radius_ > 0.0) {
+    if (!same_plane(own, laser, around.before, laser)) sides |= 1U << kBefore;
+    if (!same_plane(own, laser, around.next, laser)) sides |= 1U << kNext;
+  }
   if (sides == 0) {
     if (own.met[laser]) optics.trace(scene, own.rays[laser], own.hits[laser], 1.0, echoes);
     return;
@@ -52,44 +76,26 @@ void Beam::add_echoes(const Neighbourhood& around, std::size_t laser, const Scen
     optics.trace(scene, own.rays[laser], own.hits[laser], edge ? kMiddleShare : 1.0, echoes);
   }
   if (!edge) return;
-  for (std::size_t i = 0; i < kSides; ++i) {
-    if (!rims[i].cast) cast(around, laser, i, scene, rims[i]);
-    if (rims[i].met) optics.trace(scene, rims[i].ray, rims[i].hit, kRimShare, echoes);
+  for (std::size_t side = 0; side < kSides; ++side) {
+    if (!rims[side].cast) cast(around, laser, side, scene, rims[side]);
+    if (rims[side].met) optics.trace(scene, rims[side].ray, rims[side].hit, kRimShare, echoes);
   }
 }
 
-Beam::Side Beam::side(const Neighbourhood& around, std::size_t laser,
-                      std::size_t which) const noexcept {
-  switch (which) {
-    case 0:
-      return {&around.before, laser};
-    case 1:
-      return {&around.next, laser};
-    case 2:
-      return {&around.own, below_[laser]};
-    default:
-      return {&around.own, above_[laser]};
-  }
+const Ray* Beam::neighbour(const Neighbourhood& around, std::size_t laser,
+                           std::size_t side) const noexcept {
+  if (side == kBefore) return &around.before.rays[laser];
+  if (side == kNext) return &around.next.rays[laser];
+  const std::size_t other = side == kBelow ? below_[laser] : above_[laser];
+  return other == kNone ? nullptr : &around.own.rays[other];
 }
 
-unsigned Beam::differing_sides(const Neighbourhood& around, std::size_t laser) const noexcept {
-  unsigned sides = 0;
-  for (std::size_t i = 0; i < kSides; ++i) {
-    const auto [column, other] = side(around, laser, i);
-    if (other == kNone) continue;
-    const bool same = same_plane(around.own, laser, column->met[other], column->hits[other],
-                                 column->points[other]);
-    if (!same) sides |= 1U << i;
-  }
-  return sides;
-}
-
-bool Beam::finds_edge(const Neighbourhood& around, std::size_t laser, unsigned sides,
+bool Beam::finds_edge(const Neighbourhood& around, std::size_t laser, Sides sides,
                       const SceneAt& scene, Rims& rims) const noexcept {
-  for (std::size_t i = 0; i < kSides; ++i) {
-    if ((sides & (1U << i)) == 0) continue;
-    Rim& rim = rims[i];
-    cast(around, laser, i, scene, rim);
+  for (std::size_t side = 0; side < kSides; ++side) {
+    if ((sides & (1U << side)) == 0) continue;
+    Rim& rim = rims[side];
+    cast(around, laser, side, scene, rim);
     if (!same_plane(around.own, laser, rim.met, rim.hit,
                     rim.ray.origin + rim.hit.distance_m * rim.ray.direction)) {
       return true;
@@ -100,14 +106,15 @@ bool Beam::finds_edge(const Neighbourhood& around, std::size_t laser, unsigned s
 
 // Towards the neighbour; of the highest and the lowest ring, that have none on one side, away from
 // the opposite one.
-void Beam::cast(const Neighbourhood& around, std::size_t laser, std::size_t which,
+void Beam::cast(const Neighbourhood& around, std::size_t laser, std::size_t side,
                 const SceneAt& scene, Rim& rim) const noexcept {
   const Ray& middle = around.own.rays[laser];
-  const bool exists = side(around, laser, which).laser != kNone;
-  const auto [column, other] = side(around, laser, exists ? which : which ^ 1U);
-  Vec3 aside = column->rays[other].direction - middle.direction;
+  const Ray* towards = neighbour(around, laser, side);
+  const double sign = towards != nullptr ? 1.0 : -1.0;
+  if (towards == nullptr) towards = neighbour(around, laser, side ^ 1U);
+  Vec3 aside = towards->direction - middle.direction;
   aside -= aside.dot(middle.direction) * middle.direction;
-  aside *= (exists ? radius_ : -radius_) / aside.norm();
+  aside *= sign * radius_ / aside.norm();
   rim.cast = true;
   rim.ray = middle;
   rim.ray.direction = (middle.direction + aside).normalized();

@@ -19,19 +19,33 @@ struct Neighbourhood {
   const Column& next;
 };
 
+// Of a laser's beam: where its rim may meet another plane than its middle. Bit i is side i.
+using Sides = unsigned;
+
 class Beam {
  public:
   explicit Beam(Radians divergence);
 
-  // Adds the echoes of the laser's beam. Where its neighbours in the scan met the plane that it met
-  // itself, the middle ray stands for all of it. Elsewhere the rim towards those neighbours is
-  // asked; only when it meets another plane is the beam made of the middle and four rays of its
-  // rim.
-  void add_echoes(const Neighbourhood& around, std::size_t laser, const SceneAt& scene,
-                  const Optics& optics, Echoes& echoes) const noexcept;
+  // Below and above, of each laser of a column: where the neighbouring ring met another plane, and
+  // the rim towards it does so too.
+  using UprightSides = std::array<Sides, Column::kLasers>;
+  [[nodiscard]] UprightSides upright_sides(const Column& column,
+                                           const SceneAt& scene) const noexcept;
+
+  // Adds the echoes of the laser's beam. Where the firings before and after met the plane that it
+  // met itself, and `upright` is empty, the middle ray stands for all of it. Elsewhere the rim
+  // towards those sides is asked; only when it meets another plane is the beam made of the middle
+  // and four rays of its rim.
+  void add_echoes(const Neighbourhood& around, std::size_t laser, Sides upright,
+                  const SceneAt& scene, const Optics& optics, Echoes& echoes) const noexcept;
 
  private:
-  static constexpr std::size_t kSides = 4;  // before, next, below, above: opposites are i, i ^ 1
+  // Opposites are i, i ^ 1.
+  static constexpr std::size_t kBefore = 0;
+  static constexpr std::size_t kNext = 1;
+  static constexpr std::size_t kBelow = 2;
+  static constexpr std::size_t kAbove = 3;
+  static constexpr std::size_t kSides = 4;
   static constexpr std::size_t kNone = Column::kLasers;
 
   struct Rim {
@@ -42,19 +56,12 @@ class Beam {
   };
   using Rims = std::array<Rim, kSides>;
 
-  // The neighbour's column and laser.
-  struct Side {
-    const Column* column = nullptr;
-    std::size_t laser = kNone;
-  };
-  [[nodiscard]] Side side(const Neighbourhood& around, std::size_t laser,
-                          std::size_t which) const noexcept;
-  // Bit i: the neighbour at side i may have met another plane.
-  [[nodiscard]] unsigned differing_sides(const Neighbourhood& around,
-                                         std::size_t laser) const noexcept;
-  [[nodiscard]] bool finds_edge(const Neighbourhood& around, std::size_t laser, unsigned sides,
+  // The neighbour on the other side of an edge: its direction.
+  [[nodiscard]] const Ray* neighbour(const Neighbourhood& around, std::size_t laser,
+                                     std::size_t side) const noexcept;
+  [[nodiscard]] bool finds_edge(const Neighbourhood& around, std::size_t laser, Sides sides,
                                 const SceneAt& scene, Rims& rims) const noexcept;
-  void cast(const Neighbourhood& around, std::size_t laser, std::size_t which, const SceneAt& scene,
+  void cast(const Neighbourhood& around, std::size_t laser, std::size_t side, const SceneAt& scene,
             Rim& rim) const noexcept;
 
   double radius_;                                     // of the beam at 1 m

@@ -17,10 +17,6 @@ constexpr double kExpectationSlack = 0.01;
 
 }  // namespace
 
-double distance_to_plane(const Ray& ray, const Vec3& normal, const Vec3& point) noexcept {
-  return normal.dot(point - ray.origin) / normal.dot(ray.direction);
-}
-
 bool cast_expecting(const SceneAt& scene, const Ray& ray, double distance_m, Hit& hit) noexcept {
   if (distance_m > 0.0 && distance_m < ray.max_distance_m) {
     Ray shorter = ray;

@@ -2,7 +2,6 @@
 #include "replay/simulation/lidar/lidar_simulator.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "replay/simulation/stream.hpp"
@@ -46,6 +45,7 @@ LidarSimulator::LidarSimulator(const Scene& scene, const RigMotion& motion,
 
 void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
   const auto number = static_cast<std::int64_t>(firing);
+  look_below_and_above(number - number % kFiringsPerLook);
   // In order: each is cast once, and kept for its neighbours.
   const Column& before = caster_.column(number - 1);
   const Column& own = caster_.column(number);
@@ -63,7 +63,7 @@ void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
     const Chance chance = draw(random);
     if (chance.lost) continue;
     echoes_.clear();
-    beam_.add_echoes({before, own, next}, laser, scene, optics_, echoes_);
+    beam_.add_echoes({before, own, next}, laser, upright_[laser], scene, optics_, echoes_);
     const Seen seen = receive(echoes_.all().first(optics_.join(echoes_)), random);
     if (seen.strongest == nullptr) continue;
     // Drawn first, so that a dual-return sensor sees what a single-return one sees, and more.
@@ -78,6 +78,13 @@ void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
       first = returned(*seen.last, {.speckle = chance.speckle}, random);
     }
   }
+}
+
+void LidarSimulator::look_below_and_above(std::int64_t firing) {
+  if (looked_at_ == firing) return;
+  looked_at_ = firing;
+  const Column& column = caster_.column(firing);
+  upright_ = beam_.upright_sides(column, caster_.scene_of(column));
 }
 
 LidarSimulator::Chance LidarSimulator::draw(Random& random) const noexcept {
@@ -120,9 +127,9 @@ SimulatedReturn LidarSimulator::returned(const Echo& echo, const Chance& chance,
                                      options_.min_range_m, options_.max_range_m);
   const double brightness = 100.0 * echo.brightness + chance.speckle;
   SimulatedReturn made;
-  made.range_2mm = static_cast<std::uint16_t>(std::lround(measured / kRangeUnit));
+  made.range_2mm = static_cast<std::uint16_t>(measured * (1.0 / kRangeUnit) + 0.5);
   made.true_range_m = static_cast<float>(range);
-  made.intensity = static_cast<std::uint8_t>(std::clamp(std::lround(brightness), 1L, 100L));
+  made.intensity = static_cast<std::uint8_t>(std::clamp(brightness, 1.0, 100.0) + 0.5);
   if (chance.ghost) {
     made.flags = kIsolatedGhost;
     return made;

@@ -55,6 +55,11 @@ class LidarSimulator {
     const Echo* last = nullptr;
   };
 
+  // Edges that run along the horizon stay under a beam for many firings: they are looked for at
+  // every third one.
+  static constexpr std::int64_t kFiringsPerLook = 3;
+  void look_below_and_above(std::int64_t firing);
+
   [[nodiscard]] Chance draw(Random& random) const noexcept;
   [[nodiscard]] Seen receive(std::span<const Echo> pulses, Random& random) const noexcept;
   [[nodiscard]] SimulatedReturn returned(const Echo& echo, const Chance& chance,
@@ -65,6 +70,8 @@ class LidarSimulator {
   ColumnCaster caster_;
   Optics optics_;
   Beam beam_;
+  std::int64_t looked_at_ = Column::kUnknown;
+  Beam::UprightSides upright_{};  // as of that firing
   Echoes echoes_;
 };
 

@@ -19,6 +19,9 @@ using config::printable;
 std::string found_text(const toml::node& node) {
   constexpr std::size_t kShownBytes = 60;
   if (node.is_table()) return "a table";
+  if (const auto* text = node.as_string()) {
+    return concat("\"", printable(text->get(), kShownBytes), "\"");
+  }
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   std::string shown = text.str();

@@ -5,85 +5,84 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <variant>
 
 namespace convexcut::simulation {
 namespace {
 
-// A child that is still to be looked at.
-struct Entry {
-  float enter;
-  std::uint32_t first;
-  std::uint32_t count;
-};
+// A child that is still to be looked at: where the ray enters its box, as bits of a float that is
+// not negative, above its index. So entries are in the order of distance as numbers, and are
+// written and read in one piece.
+using Entry = std::uint64_t;
 
-// Deeper than any hierarchy that the builder makes, with three waiting children a level.
-class Stack {
- public:
-  [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
-  void push(const Entry& entry) noexcept { entries_[size_++] = entry; }
-  Entry pop() noexcept { return entries_[--size_]; }
-  // The nearest of the entries from `from` on comes last.
-  void sort_from(std::size_t from) noexcept {
-    for (std::size_t i = from + 1; i < size_; ++i) {
-      const Entry entry = entries_[i];
-      std::size_t place = i;
-      for (; place > from && entries_[place - 1].enter < entry.enter; --place) {
-        entries_[place] = entries_[place - 1];
-      }
-      entries_[place] = entry;
-    }
-  }
-  [[nodiscard]] std::size_t size() const noexcept { return size_; }
-
- private:
-  std::array<Entry, 256> entries_;
-  std::size_t size_ = 0;
-};
-
-template <class Node>
-void push_met_children(const Node& node, const BoxRay& ray, float limit, Stack& stack) {
-  const std::size_t before = stack.size();
-  ray.meet(node.boxes, limit, [&](std::size_t lane, float enter) {
-    stack.push({enter, node.first[lane], node.count[lane]});
-  });
-  stack.sort_from(before);
+Entry entry_of(float enter, std::uint32_t child) noexcept {
+  return Entry{std::bit_cast<std::uint32_t>(enter)} << 32U | child;
 }
+
+// Deeper than any hierarchy that the builder makes, with seven waiting children a level.
+using Stack = std::array<Entry, 512>;
+
+// What is nearest on a ray so far.
+struct Nearest {
+  Nearest(const Ray& cast_ray, const Hit& hit)
+      : ray(cast_ray), distance_m(std::min(hit.distance_m, cast_ray.max_distance_m)) {}
+
+  void try_on(const Primitive& primitive) noexcept {
+    const double distance =
+        std::visit([&](const auto& shape) { return shape.meet(ray, distance_m); }, primitive.shape);
+    if (distance >= distance_m) return;
+    distance_m = distance;
+    met = &primitive;
+  }
+  const Primitive* finish(Hit& hit) const noexcept {
+    if (met == nullptr) return nullptr;
+    hit.distance_m = distance_m;
+    hit.surface = met->surface;
+    return met;
+  }
+
+  const Ray& ray;
+  double distance_m;
+  const Primitive* met = nullptr;
+};
 
 }  // namespace
 
-const Primitive* Geometry::cast(const Ray& ray, Hit& hit) const noexcept {
+const Primitive* Geometry::cast_on_each(const Ray& ray, Hit& hit) const noexcept {
+  Nearest nearest(ray, hit);
+  for (const Primitive& primitive : primitives_) nearest.try_on(primitive);
+  return nearest.finish(hit);
+}
+
+const Primitive* Geometry::cast(const Ray& ray, const BoxRay& box_ray, Hit& hit) const noexcept {
   if (nodes_.empty()) return nullptr;
-  const BoxRay box_ray(ray);
-  const Primitive* met = nullptr;
-  double nearest = std::min(hit.distance_m, ray.max_distance_m);
-  float limit = BoxRay::limit_of(nearest);
-  Stack stack;
-  push_met_children(nodes_.front(), box_ray, limit, stack);
-  while (!stack.empty()) {
-    const Entry entry = stack.pop();
-    if (entry.enter > limit) continue;
-    if (entry.count == 0) {
-      push_met_children(nodes_[entry.first], box_ray, limit, stack);
+  Nearest nearest(ray, hit);
+  float limit = BoxRay::limit_of(nearest.distance_m);
+  Stack stack;  // not cleared: that takes longer than all the rest
+  stack[0] = entry_of(0.0F, Node::kIsNode);
+  std::size_t size = 1;
+  while (size > 0) {
+    const Entry entry = stack[--size];
+    if (entry > entry_of(limit, ~std::uint32_t{0})) continue;
+    const auto child = static_cast<std::uint32_t>(entry);
+    if ((child & Node::kIsNode) == 0) {
+      nearest.try_on(primitives_[child]);
+      limit = BoxRay::limit_of(nearest.distance_m);
       continue;
     }
-    for (std::uint32_t i = 0; i < entry.count; ++i) {
-      const Primitive& primitive = primitives_[entry.first + i];
-      const double distance =
-          std::visit([&](const auto& shape) { return shape.meet(ray, nearest); }, primitive.shape);
-      if (distance < nearest) {
-        nearest = distance;
-        met = &primitive;
-      }
-    }
-    limit = BoxRay::limit_of(nearest);
+    const Node& node = nodes_[child & ~Node::kIsNode];
+    const std::size_t before = size;
+    box_ray.meet(node.boxes, limit, [&](std::size_t lane, float enter) {
+      // Sorted, the nearest of the node's children last.
+      const Entry met = entry_of(enter, node.children[lane]);
+      std::size_t place = size++;
+      for (; place > before && stack[place - 1] < met; --place) stack[place] = stack[place - 1];
+      stack[place] = met;
+    });
   }
-  if (met != nullptr) {
-    hit.distance_m = nearest;
-    hit.surface = met->surface;
-  }
-  return met;
+  return nearest.finish(hit);
 }
 
 Vec3 normal_at(const Shape& shape, const Vec3& p) noexcept {

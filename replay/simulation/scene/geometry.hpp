@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "replay/simulation/scene/bounds.hpp"
-#include "replay/simulation/scene/four_boxes.hpp"
+#include "replay/simulation/scene/eight_boxes.hpp"
 #include "replay/simulation/scene/ray.hpp"
 #include "replay/simulation/scene/shapes.hpp"
 
@@ -25,22 +25,24 @@ class Geometry {
   explicit Geometry(std::vector<Primitive> primitives);
 
   // Replaces distance and surface of `hit`, and gives the shape, when one is met before
-  // `hit.distance_m`; null otherwise.
-  const Primitive* cast(const Ray& ray, Hit& hit) const noexcept;
+  // `hit.distance_m`; null otherwise. `box_ray` is made of `ray`.
+  const Primitive* cast(const Ray& ray, const BoxRay& box_ray, Hit& hit) const noexcept;
+  // The same without the hierarchy: better for a handful of primitives.
+  const Primitive* cast_on_each(const Ray& ray, Hit& hit) const noexcept;
 
   [[nodiscard]] const Bounds& bounds() const noexcept { return bounds_; }
   [[nodiscard]] const std::vector<Primitive>& primitives() const noexcept { return primitives_; }
 
  private:
-  // Four children: each of them a node or a leaf of some primitives.
+  // Eight children at most, each in its box: primitives, or other nodes.
   struct Node {
-    FourBoxes boxes = FourBoxes::nothing();
-    std::array<std::uint32_t, 4> first{};  // primitive of a leaf, or node
-    std::array<std::uint32_t, 4> count{};  // primitives; 0: a node
+    static constexpr std::uint32_t kIsNode = std::uint32_t{1} << 31U;
+    EightBoxes boxes = EightBoxes::nothing();
+    std::array<std::uint32_t, EightBoxes::kLanes> children{};  // index, and the bit
   };
   class Builder;
 
-  std::vector<Primitive> primitives_;  // those of a leaf are neighbours
+  std::vector<Primitive> primitives_;  // in the order of the hierarchy
   std::vector<Node> nodes_;            // the first is the root
   Bounds bounds_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Builds the hierarchy by the surface area heuristic in bins (Wald, "On fast Construction of
-// SAH-based Bounding Volume Hierarchies", 2007), four children a node.
+// SAH-based Bounding Volume Hierarchies", 2007), eight children a node.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,7 +16,6 @@ namespace convexcut::simulation {
 namespace {
 
 constexpr std::size_t kBins = 16;
-constexpr std::size_t kLargestLeaf = 2;
 // Below this depth halves are made, whatever they cost: the depth stays under that of the stack.
 constexpr int kDeepestBinned = 32;
 
@@ -99,14 +98,14 @@ std::size_t split(Items items, int depth) {
   return items.size() / 2;
 }
 
-// Up to four parts of which none is empty.
+// Up to eight parts of which none is empty.
 std::vector<Items> parts_of(Items items, int depth) {
   std::vector<Items> parts{items};
-  while (parts.size() < 4) {
+  while (parts.size() < EightBoxes::kLanes) {
     const auto largest = std::ranges::max_element(parts, {}, [](Items part) {
-      return part.size() <= kLargestLeaf ? -1.0 : bounds_of_items(part).area();
+      return part.size() == 1 ? -1.0 : bounds_of_items(part).area();
     });
-    if (largest->size() <= kLargestLeaf) break;
+    if (largest->size() == 1) break;
     const std::size_t second = split(*largest, depth);
     const Items whole = *largest;
     *largest = whole.first(second);
@@ -131,28 +130,22 @@ class Geometry::Builder {
   }
 
  private:
-  std::size_t add_node(Items items, int depth) {
-    const std::size_t index = geometry_.nodes_.size();
+  std::uint32_t add_primitive(const Item& item) {
+    geometry_.primitives_.push_back(std::move(source_[item.primitive]));
+    return static_cast<std::uint32_t>(geometry_.primitives_.size() - 1);
+  }
+
+  std::uint32_t add_node(Items items, int depth) {
+    const auto index = static_cast<std::uint32_t>(geometry_.nodes_.size());
     geometry_.nodes_.emplace_back();
     const std::vector<Items> parts = parts_of(items, depth);
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
       const Items part = parts[lane];
-      const Bounds bounds = bounds_of_items(part);
-      std::uint32_t first = 0;
-      std::uint32_t count = 0;
-      if (part.size() <= kLargestLeaf) {
-        first = static_cast<std::uint32_t>(geometry_.primitives_.size());
-        count = static_cast<std::uint32_t>(part.size());
-        for (const Item& item : part) {
-          geometry_.primitives_.push_back(std::move(source_[item.primitive]));
-        }
-      } else {
-        first = static_cast<std::uint32_t>(add_node(part, depth + 1));
-      }
+      const std::uint32_t child = part.size() == 1 ? add_primitive(part.front())
+                                                   : add_node(part, depth + 1) | Node::kIsNode;
       Node& node = geometry_.nodes_[index];
-      node.boxes.set(lane, bounds);
-      node.first[lane] = first;
-      node.count[lane] = count;
+      node.boxes.set(lane, bounds_of_items(part));
+      node.children[lane] = child;
     }
     return index;
   }

@@ -17,8 +17,7 @@ namespace convexcut::simulation {
 class GroupReader {
  public:
   // Mesh files are looked for in `directory`.
-  GroupReader(std::filesystem::path directory, Problems& problems)
-      : directory_(std::move(directory)), problems_(problems) {}
+  explicit GroupReader(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
   // [template.NAME] tables, all of them. Before everything else.
   void read_templates(Fields tables);
@@ -42,7 +41,6 @@ class GroupReader {
   void read_place(Fields& place, std::vector<Item>& items);
 
   std::filesystem::path directory_;
-  Problems& problems_;
   std::map<std::string, Template, std::less<>> templates_;
 };
 

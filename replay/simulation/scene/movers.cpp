@@ -51,12 +51,11 @@ Vec3 Flight::at(Duration since_start) const noexcept {
   return p;
 }
 
-MoverPart::MoverPart(Geometry part, const Vec3& part_joint, Radians part_swing)
-    : geometry(std::move(part)),
-      joint(part_joint),
-      swing(part_swing),
-      middle(geometry.bounds().centre()),
-      reach(geometry.bounds().size().norm() / 2.0) {}
+Bounds PartPose::around(const Bounds& bounds_part) const noexcept {
+  const Vec3 middle = origin_world + part_from_world.transpose() * bounds_part.centre();
+  const Vec3 reach = part_from_world.cwiseAbs().transpose() * (bounds_part.size() / 2.0);
+  return {middle - reach, middle + reach};
+}
 
 void place_parts(const Mover& mover, Duration since_start, PartPose* poses) noexcept {
   const Place place = place_of(mover, since_start);
@@ -74,9 +73,7 @@ void place_parts(const Mover& mover, Duration since_start, PartPose* poses) noex
     part_from_mover << cos_swing, 0.0, sin_swing, 0.0, 1.0, 0.0, -sin_swing, 0.0, cos_swing;
     pose.part_from_world = part_from_mover * mover_from_world;
     const Vec3 joint_world = place.position + mover_from_world.transpose() * part.joint;
-    const Eigen::Matrix3d world_from_part = pose.part_from_world.transpose();
-    pose.world_from_part_offset = joint_world - world_from_part * part.joint;
-    pose.middle_world = pose.world_from_part_offset + world_from_part * part.middle;
+    pose.origin_world = joint_world - pose.part_from_world.transpose() * part.joint;
   }
 }
 
@@ -95,20 +92,20 @@ std::vector<MoverPart> person_parts(double height_m, std::uint32_t surface) {
   trunk.push_back({Block(chest, {0.10, 0.11 * height_m, (shoulder - hip) / 2.0 + 0.02}), surface});
   trunk.push_back(limb({0.0, 0.0, shoulder}, {0.0, 0.0, 0.90 * height_m}, 0.06));
   trunk.push_back({Sphere({0.02, 0.0, 0.94 * height_m}, 0.06 * height_m), surface});
-  parts.emplace_back(Geometry(std::move(trunk)), Vec3::Zero(), Radians{});
+  parts.push_back({Geometry(std::move(trunk)), Vec3::Zero(), Radians{}});
   constexpr Radians kLegSwing{0.40};
   constexpr Radians kArmSwing{0.30};
   for (const double side : {1.0, -1.0}) {
     const Vec3 hip_joint(0.0, side * half_hips, hip);
     const Vec3 foot(0.0, side * half_hips, 0.0);
     const RigidTransform shoe{Quaternion::Identity(), {0.06, side * half_hips, 0.04}};
-    parts.emplace_back(
-        Geometry({limb(hip_joint, foot, 0.075), {Block(shoe, {0.13, 0.045, 0.04}), surface}}),
-        hip_joint, Radians{side * kLegSwing.value});
+    const Primitive foot_block{Block(shoe, {0.13, 0.045, 0.04}), surface};
+    parts.push_back({Geometry({limb(hip_joint, foot, 0.075), foot_block}), hip_joint,
+                     Radians{side * kLegSwing.value}});
     const Vec3 shoulder_joint(0.0, side * half_shoulders, shoulder);
     const Vec3 hand(0.05, side * (half_shoulders + 0.03), 0.42 * height_m);
-    parts.emplace_back(Geometry({limb(shoulder_joint, hand, 0.045)}), shoulder_joint,
-                       Radians{-side * kArmSwing.value});
+    parts.push_back({Geometry({limb(shoulder_joint, hand, 0.045)}), shoulder_joint,
+                     Radians{-side * kArmSwing.value}});
   }
   return parts;
 }

@@ -32,13 +32,9 @@ class Flight {
 // A rigid part of a mover. Its geometry is in the mover's frame (origin on the way, x ahead, z up)
 // as it stands still.
 struct MoverPart {
-  MoverPart(Geometry part, const Vec3& part_joint, Radians part_swing);
-
   Geometry geometry;
   Vec3 joint;     // swings about the y axis through this point as the mover walks
   Radians swing;  // forwards at most; negative: the other way round
-  Vec3 middle;    // with `reach`: a sphere about the geometry
-  double reach = 0.0;
 };
 
 struct Mover {
@@ -52,8 +48,10 @@ struct Mover {
 // Where a part is at an instant.
 struct PartPose {
   Eigen::Matrix3d part_from_world = Eigen::Matrix3d::Identity();
-  Vec3 world_from_part_offset = Vec3::Zero();  // p_part = part_from_world · (p_world − this)
-  Vec3 middle_world = Vec3::Zero();
+  Vec3 origin_world = Vec3::Zero();  // p_part = part_from_world · (p_world − origin_world)
+
+  // Around a box of the part, in the world.
+  [[nodiscard]] Bounds around(const Bounds& bounds_part) const noexcept;
 };
 
 // The poses of a mover's parts, in their order, into `poses` (one a part).

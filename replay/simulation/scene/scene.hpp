@@ -4,6 +4,7 @@
 // z up, metres. docs/scenes.md describes the files.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -50,7 +51,8 @@ struct RigPlan {
   Path path;    // empty: the scene has none
 };
 
-struct FourBoxes;
+class BoxRay;
+struct EightBoxes;
 struct PartPose;
 
 namespace detail {
@@ -76,11 +78,19 @@ class SceneAt {
  private:
   friend class Scene;
   explicit SceneAt(std::shared_ptr<const detail::SceneData> scene);
+  void cast_on_mover(std::size_t index, const Ray& ray, const BoxRay& box_ray,
+                     Hit& hit) const noexcept;
 
   std::shared_ptr<const detail::SceneData> scene_;
-  std::vector<PartPose> poses_;          // of all movers' parts
-  std::vector<std::size_t> first_pose_;  // by mover
-  std::vector<FourBoxes> mover_boxes_;   // around whole movers
+  // Where a mover's parts begin in the two lists that follow.
+  struct Slot {
+    std::size_t pose = 0;
+    std::size_t boxes = 0;
+  };
+  std::vector<PartPose> poses_;
+  std::vector<EightBoxes> part_boxes_;
+  std::vector<Slot> slots_;              // by mover
+  std::vector<EightBoxes> mover_boxes_;  // around all parts of each
 };
 
 // Immutable; copies share what they hold.

@@ -72,10 +72,10 @@ class TopView {
         if (!instant.cast(ray, hit)) continue;
         // Within a solid one meets it below and above: it is cut, and drawn as plans do.
         Hit above;
-        const bool is_cut = instant.cast({ray.origin, Vec3::UnitZ()}, above) &&
-                            above.surface == hit.surface;
-        const Colour colour = is_cut ? shaded(colour_of(scene.surfaces()[hit.surface]), 0.35)
-                                     : seen(scene, ray, hit);
+        const bool is_cut =
+            instant.cast({ray.origin, Vec3::UnitZ()}, above) && above.surface == hit.surface;
+        const Colour colour =
+            is_cut ? shaded(colour_of(scene.surfaces()[hit.surface]), 0.35) : seen(scene, ray, hit);
         canvas.blend(kMargin + column, kTitleHeight + row, colour, 1.0);
       }
     }

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "config/value_text.hpp"
+#include "replay/simulation/scene/eight_boxes.hpp"
 #include "replay/simulation/scene/fields.hpp"
-#include "replay/simulation/scene/four_boxes.hpp"
 #include "replay/simulation/scene/group_reader.hpp"
 #include "replay/simulation/scene/mover_reader.hpp"
 #include "replay/simulation/scene/problems.hpp"
@@ -46,7 +46,7 @@ class Assembly {
       item.mover.parts = person_parts(item.person_height_m, numbers.front());
     } else {
       for (Primitive& primitive : item.primitives) primitive.surface = numbers[primitive.surface];
-      item.mover.parts.emplace_back(Geometry(std::move(item.primitives)), Vec3::Zero(), Radians{});
+      item.mover.parts.push_back({Geometry(std::move(item.primitives)), Vec3::Zero(), Radians{}});
     }
     scene_.movers.push_back(std::move(item.mover));
   }
@@ -99,7 +99,7 @@ void read_root(Fields root, const std::filesystem::path& directory, const SceneO
                detail::SceneData& scene, Problems& problems) {
   scene.description = root.text_or("description", "");
   scene.rig = read_rig(root);
-  GroupReader groups(directory, problems);
+  GroupReader groups(directory);
   if (auto templates = root.table("template")) groups.read_templates(*templates);
   Assembly assembly(scene, problems);
   assembly.add(groups.read(root));

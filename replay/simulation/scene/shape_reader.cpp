@@ -115,7 +115,10 @@ Mesh read_inline_mesh(Fields& fields) {
   const Range indices{0.0, static_cast<double>(mesh.vertices.size()) - 1.0};
   for (const auto& row : fields.rows("faces", 3, 1, indices)) {
     Mesh::Triangle triangle{};
-    for (std::size_t i = 0; i < 3; ++i) triangle[i] = static_cast<std::uint32_t>(row[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle[i] = static_cast<std::uint32_t>(row[i]);
+      if (row[i] != std::floor(row[i])) fields.report("faces", "expected whole numbers");
+    }
     mesh.triangles.push_back(triangle);
   }
   return mesh;

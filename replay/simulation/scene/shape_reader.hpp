@@ -21,17 +21,6 @@ struct Item {
   std::size_t line = 0;  // for messages
 };
 
-inline constexpr std::array<std::pair<std::string_view, SurfaceLabel>, 3> kLabelNames{{
-    {"structure", SurfaceLabel::structure},
-    {"object", SurfaceLabel::object},
-    {"dynamic", SurfaceLabel::dynamic},
-}};
-inline constexpr std::array<std::pair<std::string_view, Material>, 3> kMaterialNames{{
-    {"diffuse", Material::diffuse},
-    {"glass", Material::glass},
-    {"mirror", Material::mirror},
-}};
-
 // name, label, reflectivity and material; `otherwise` holds what is not said.
 [[nodiscard]] SurfaceInfo read_surface(Fields& fields, SurfaceInfo otherwise);
 

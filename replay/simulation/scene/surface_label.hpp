@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
+#include <utility>
 
 namespace convexcut::simulation {
 
@@ -12,5 +15,17 @@ enum class SurfaceLabel : std::uint8_t { none = 0, structure = 1, object = 2, dy
 
 // What light does at a surface: scattered back; mostly let through, with some mirrored; mirrored.
 enum class Material : std::uint8_t { diffuse = 0, glass = 1, mirror = 2 };
+
+// As files spell them: those that surfaces can have.
+inline constexpr std::array<std::pair<std::string_view, SurfaceLabel>, 3> kLabelNames{{
+    {"structure", SurfaceLabel::structure},
+    {"object", SurfaceLabel::object},
+    {"dynamic", SurfaceLabel::dynamic},
+}};
+inline constexpr std::array<std::pair<std::string_view, Material>, 3> kMaterialNames{{
+    {"diffuse", Material::diffuse},
+    {"glass", Material::glass},
+    {"mirror", Material::mirror},
+}};
 
 }  // namespace convexcut::simulation

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Labels and materials as the truth files spell them.
+// From labels and materials to the words that files have for them, and back.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -12,25 +10,28 @@
 
 namespace convexcut::simulation {
 
-inline constexpr std::array<std::string_view, 4> kLabelNames{"none", "structure", "object",
-                                                             "dynamic"};
-inline constexpr std::array<std::string_view, 3> kMaterialNames{"diffuse", "glass", "mirror"};
+// Names: kLabelNames or kMaterialNames. Nothing for a value or a word that is not among them.
+template <class Names, class Value>
+[[nodiscard]] constexpr std::string_view name_in(const Names& names, Value value) noexcept {
+  for (const auto& [name, named] : names) {
+    if (named == value) return name;
+  }
+  return {};
+}
+template <class Names>
+[[nodiscard]] constexpr auto named_in(const Names& names, std::string_view name) noexcept {
+  std::optional<decltype(names.front().second)> found;
+  for (const auto& [known, value] : names) {
+    if (known == name) found = value;
+  }
+  return found;
+}
 
 [[nodiscard]] constexpr std::string_view name_of(SurfaceLabel label) noexcept {
-  return kLabelNames[static_cast<std::size_t>(label)];
+  return label == SurfaceLabel::none ? "none" : name_in(kLabelNames, label);
 }
 [[nodiscard]] constexpr std::string_view name_of(Material material) noexcept {
-  return kMaterialNames[static_cast<std::size_t>(material)];
-}
-
-// Nothing for another word. Value: SurfaceLabel or Material.
-template <class Value, std::size_t N>
-[[nodiscard]] constexpr std::optional<Value> named(const std::array<std::string_view, N>& names,
-                                                   std::string_view name) noexcept {
-  for (std::size_t i = 0; i < N; ++i) {
-    if (names[i] == name) return static_cast<Value>(i);
-  }
-  return std::nullopt;
+  return name_in(kMaterialNames, material);
 }
 
 }  // namespace convexcut::simulation

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "core/time.hpp"
+#include "drivers/recording/pose_file.hpp"
 
 namespace convexcut::simulation::truth_format {
 
@@ -21,7 +22,7 @@ inline constexpr int kVersion = 1;
 inline constexpr std::string_view kSettingsFile = "simulation.toml";
 inline constexpr std::string_view kReturnsFile = "returns.bin";
 inline constexpr std::string_view kPosesFile = "poses.csv";
-inline constexpr std::string_view kPosesHeader = "stamp_ns,x,y,z,qx,qy,qz,qw";
+inline constexpr std::string_view kPosesHeader = recording::kPoseFileHeader;
 inline constexpr Duration kPosePeriod = std::chrono::microseconds{2500};
 
 // --- header

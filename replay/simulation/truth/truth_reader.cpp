@@ -2,11 +2,8 @@
 #include "replay/simulation/truth/truth_reader.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -21,6 +18,7 @@
 #include <toml++/toml.h>
 
 #include "drivers/live/file_descriptor.hpp"
+#include "drivers/recording/pose_file.hpp"
 #include "replay/simulation/truth/label_name.hpp"
 #include "replay/simulation/truth/truth_format.hpp"
 
@@ -87,9 +85,8 @@ std::vector<SurfaceInfo> read_surfaces(const toml::table& table,
   for (const toml::node& node : *array) {
     const toml::table* row = node.as_table();
     if (row == nullptr) throw TruthError(file.string() + ": scene.surface: expected tables");
-    const auto label = named<SurfaceLabel>(kLabelNames, wanted<std::string>(*row, "label", file));
-    const auto material =
-        named<Material>(kMaterialNames, wanted<std::string>(*row, "material", file));
+    const auto label = named_in(kLabelNames, wanted<std::string>(*row, "label", file));
+    const auto material = named_in(kMaterialNames, wanted<std::string>(*row, "material", file));
     if (!label || !material) {
       throw TruthError(file.string() + ": scene.surface: an unknown label or material");
     }
@@ -124,46 +121,14 @@ TruthSettings read_settings(const std::filesystem::path& file) {
           .surfaces = read_surfaces(table, file)};
 }
 
-// "stamp,x,y,z,qx,qy,qz,qw"; false: not eight numbers, or no rotation.
-bool parse_pose(std::string_view line, StampedPose& out) {
-  std::array<double, 7> values{};
-  std::int64_t stamp = 0;
-  const char* end = line.data() + line.size();
-  auto [at, error] = std::from_chars(line.data(), end, stamp);
-  if (error != std::errc{}) return false;
-  for (double& value : values) {
-    if (at == end || *at != ',') return false;
-    const auto [next, problem] = std::from_chars(at + 1, end, value);
-    if (problem != std::errc{} || !std::isfinite(value)) return false;
-    at = next;
+std::vector<PoseSample> read_truth_poses(const std::filesystem::path& file) {
+  try {
+    std::vector<PoseSample> poses = recording::read_poses(file);
+    if (poses.size() >= 2) return poses;
+  } catch (const std::runtime_error& error) {
+    throw TruthError(error.what());
   }
-  const auto& [x, y, z, qx, qy, qz, qw] = values;
-  const Quaternion q(qw, qx, qy, qz);
-  if (at != end || std::abs(q.norm() - 1.0) > 1e-3) return false;
-  out = {from_ns<HostTime>(stamp), {Vec3(x, y, z), q.normalized()}};
-  return true;
-}
-
-std::vector<StampedPose> read_poses(const std::filesystem::path& file) {
-  const std::string text = contents(file);
-  std::vector<StampedPose> poses;
-  std::size_t number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = std::string_view(text).substr(at, end - at);
-    at = end + 1;
-    ++number;
-    StampedPose pose;
-    const bool good = number == 1 ? line == format::kPosesHeader : parse_pose(line, pose);
-    if (!good || (!poses.empty() && pose.stamp <= poses.back().stamp)) {
-      throw TruthError(file.string() + ":" + std::to_string(number) + ": expected " +
-                       (number == 1 ? "the header " : "a later pose, as ") +
-                       std::string(format::kPosesHeader));
-    }
-    if (number > 1) poses.push_back(pose);
-  }
-  if (poses.size() < 2) throw TruthError(file.string() + ": expected at least two poses");
-  return poses;
+  throw TruthError(file.string() + ": expected at least two poses");
 }
 
 }  // namespace
@@ -197,7 +162,7 @@ TruthReader::TruthReader(const std::filesystem::path& folder) {
     truth /= "truth";
   }
   settings_ = read_settings(truth / format::kSettingsFile);
-  poses_ = read_poses(truth / format::kPosesFile);
+  poses_ = read_truth_poses(truth / format::kPosesFile);
   returns_ = std::make_unique<Mapping>(truth / format::kReturnsFile);
   check_header(truth / format::kReturnsFile);
 }
@@ -255,15 +220,17 @@ std::size_t TruthReader::firing_at(HostTime time) const noexcept {
 Pose TruthReader::pose_at(HostTime time) const noexcept {
   const auto after =
       std::upper_bound(poses_.begin(), poses_.end(), time,
-                       [](HostTime t, const StampedPose& pose) { return t < pose.stamp; });
-  if (after == poses_.begin()) return poses_.front().pose;
-  if (after == poses_.end()) return poses_.back().pose;
-  const StampedPose& from = *(after - 1);
+                       [](HostTime t, const PoseSample& pose) { return t < pose.stamp; });
+  const auto pose_of = [](const PoseSample& sample) -> Pose {
+    return {sample.position_world, sample.q_world_from_lidar};
+  };
+  if (after == poses_.begin()) return pose_of(poses_.front());
+  if (after == poses_.end()) return pose_of(poses_.back());
+  const PoseSample& from = *(after - 1);
   const double share = static_cast<double>((time - from.stamp).count()) /
                        static_cast<double>((after->stamp - from.stamp).count());
-  return {
-      from.pose.position_world + share * (after->pose.position_world - from.pose.position_world),
-      from.pose.q_world_from_lidar.slerp(share, after->pose.q_world_from_lidar)};
+  return {from.position_world + share * (after->position_world - from.position_world),
+          from.q_world_from_lidar.slerp(share, after->q_world_from_lidar)};
 }
 
 }  // namespace convexcut::simulation

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/angle.hpp"
+#include "core/pose_sample.hpp"
 #include "core/time.hpp"
 #include "drivers/wire.hpp"
 #include "replay/simulation/lidar/simulated_firing.hpp"
@@ -57,11 +58,6 @@ class TrueFiring {
   std::size_t echoes_;
 };
 
-struct StampedPose {
-  HostTime stamp{};
-  Pose pose;
-};
-
 class TruthReader {
  public:
   // The folder `truth` itself, or the recording's that has it. Throws TruthError.
@@ -79,7 +75,7 @@ class TruthReader {
   [[nodiscard]] std::size_t firing_at(HostTime time) const noexcept;
 
   // Ascending stamps, at least two.
-  [[nodiscard]] std::span<const StampedPose> poses() const noexcept { return poses_; }
+  [[nodiscard]] std::span<const PoseSample> poses() const noexcept { return poses_; }
   // Between the neighbours; that of the first or last one outside of them.
   [[nodiscard]] Pose pose_at(HostTime time) const noexcept;
 
@@ -89,7 +85,7 @@ class TruthReader {
   void check_header(const std::filesystem::path& file);
 
   TruthSettings settings_;
-  std::vector<StampedPose> poses_;
+  std::vector<PoseSample> poses_;
   std::unique_ptr<Mapping> returns_;
   std::size_t firings_ = 0;
   std::size_t echoes_ = 1;

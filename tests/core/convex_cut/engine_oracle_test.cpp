@@ -14,6 +14,7 @@
 #include "core/convex_cut/reference.hpp"
 #include "tests/core/convex_cut/clouds.hpp"
 #include "tests/core/convex_cut/every_simd_path.hpp"
+#include "tests/support/effort.hpp"
 
 namespace convexcut {
 namespace {
@@ -37,7 +38,7 @@ constexpr std::array<double, 5> kHullDistances{0.08, 0.25, 0.0, 1.0, 50.0};
 class EngineOracle : public testing::TestWithParam<test::Distribution> {};
 
 TEST_P(EngineOracle, LabelsAreTheReferencesForEveryThreadCount) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::repetitions(20); ++seed) {
     test::Random random(seed);
     const test::Cloud cloud = GetParam().make(random);
     // The default first; the dense cloud would take the reference minutes with many wide slices.
@@ -60,7 +61,7 @@ class EngineOnEverySimdPath : public test::EverySimdPath {};
 
 TEST_P(EngineOnEverySimdPath, LabelsAreTheReferences) {
   for (const test::Distribution& distribution : test::distributions()) {
-    for (std::uint64_t seed = 100; seed < 103; ++seed) {
+    for (std::uint64_t seed = 100; seed < 100 + test::repetitions(3); ++seed) {
       test::Random random(seed);
       const test::Cloud cloud = distribution.make(random);
       const ConvexCutParameters parameters =
@@ -97,6 +98,7 @@ TEST(EngineReuse, OneEngineLabelsAnyCloudsOneAfterTheOther) {
 }
 
 TEST(EngineReuse, AMillionPointsFit) {
+  CONVEXCUT_LONG_TEST();
   test::Random random(8);
   const test::Cloud cloud = test::furnished_room(random, 1'000'000);
   const ConvexCutParameters parameters{.planes = 6};

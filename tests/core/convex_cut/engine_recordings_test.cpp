@@ -10,6 +10,7 @@
 #include "core/convex_cut/engine.hpp"
 #include "core/convex_cut/reference.hpp"
 #include "tests/core/convex_cut/recorded_clouds.hpp"
+#include "tests/support/effort.hpp"
 #include "tests/support/recordings.hpp"
 
 namespace convexcut {
@@ -39,6 +40,7 @@ TEST(EngineOnRecordings, BuildingPassage) {
 }
 
 TEST(EngineOnRecordings, RoomPanorama) {
+  CONVEXCUT_LONG_TEST();
   CONVEXCUT_NEEDS_RECORDING(file, "room/room_panorama.pcd");
   const test::Cloud cloud = test::read_pcd(file);
   ASSERT_GT(cloud.size(), 100'000U);
@@ -46,6 +48,7 @@ TEST(EngineOnRecordings, RoomPanorama) {
 }
 
 TEST(EngineOnRecordings, Courtyard) {
+  CONVEXCUT_LONG_TEST();
   CONVEXCUT_NEEDS_RECORDING(file, "lidar/hdl32e_courtyard_2011.pcap");
   const std::vector<test::Cloud> revolutions = test::read_hdl32e_revolutions(file);
   ASSERT_EQ(revolutions.size(), 2U);

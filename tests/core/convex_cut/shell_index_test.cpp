@@ -4,6 +4,7 @@
 #include "core/convex_cut/shell_index.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -15,13 +16,19 @@
 namespace convexcut {
 namespace {
 
+[[nodiscard]] bool is_member(const SlicingPlane& plane, const test::Cloud& cloud, std::size_t k,
+                             double half_width_m) {
+  return std::abs(plane.offset(cloud.x[k], cloud.y[k])) < half_width_m;
+}
+
 TEST(ShellIndex, HoldsEveryPointOnce) {
   test::Random random(1);
-  ShellIndex index(0.05, 10'000);
+  ShellIndex index(0.05, 10'000, 1);
   for (const test::Distribution& distribution : test::distributions()) {
     const test::Cloud cloud = distribution.make(random);
     index.build(cloud.view());
-    std::vector<std::uint32_t> source(index.source().begin(), index.source().end());
+    std::vector<std::uint32_t> source(index.size());
+    for (std::uint32_t k = 0; k < index.size(); ++k) source[k] = index.source(k);
     for (std::size_t k = 0; k < source.size(); ++k) {
       ASSERT_EQ(index.points().x[k], cloud.x[source[k]]);
       ASSERT_EQ(index.points().y[k], cloud.y[source[k]]);
@@ -33,19 +40,27 @@ TEST(ShellIndex, HoldsEveryPointOnce) {
   }
 }
 
-TEST(ShellIndex, OffersEveryMemberOfEverySliceOnce) {
+TEST(ShellIndex, OffersEveryMemberOfEverySliceOnceWithinBounds) {
   test::Random random(2);
   for (const double half_width_m : {1e-6, 1e-4, 0.05, 2.0, 300.0}) {
-    ShellIndex index(half_width_m, 10'000);
+    ShellIndex index(half_width_m, 10'000, 3);
     for (const test::Distribution& distribution : test::distributions()) {
       const test::Cloud cloud = distribution.make(random);
       index.build(cloud.view());
       for (std::uint32_t i = 0; i < 23; ++i) {
         const SlicingPlane plane = slicing_plane(i, 23);
         std::vector<int> offered(cloud.size(), 0);
-        index.for_each_candidate_range(ShellIndex::windows(plane), [&](ShellIndex::Range range) {
-          for (std::uint32_t k = range.begin; k < range.end; ++k) ++offered[index.source()[k]];
-        });
+        index.for_each_candidate_range(
+            ShellIndex::windows(plane), [&](const ShellIndex::Candidates& found) {
+              for (std::uint32_t k = found.range.begin; k < found.range.end; ++k) {
+                const std::uint32_t source = index.source(k);
+                ++offered[source];
+                if (!is_member(plane, cloud, source, half_width_m)) continue;
+                const double u = plane.along(cloud.x[source], cloud.y[source]);
+                ASSERT_GE(u, found.least_u_m);
+                ASSERT_LE(u, found.most_u_m);
+              }
+            });
         for (const std::size_t member : reference::cut(cloud.view(), plane, half_width_m)) {
           ASSERT_EQ(offered[member], 1) << distribution.name << ", plane " << i;
         }
@@ -61,12 +76,12 @@ TEST(ShellIndex, OffersPointsOnEitherSideOfTheSeamOfDirections) {
   for (const double x : {-50.0, -3.0, 3.0, 50.0}) {
     for (const double y : {-0.04, -1e-7, -0.0, 0.0, 1e-7, 0.04}) cloud.add(x, y, 0);
   }
-  ShellIndex index(0.05, cloud.size());
+  ShellIndex index(0.05, cloud.size(), 2);
   index.build(cloud.view());
   std::size_t offered = 0;
   index.for_each_candidate_range(
       ShellIndex::windows(slicing_plane(0, 360)),
-      [&](ShellIndex::Range range) { offered += range.end - range.begin; });
+      [&](const ShellIndex::Candidates& found) { offered += found.range.end - found.range.begin; });
   EXPECT_EQ(offered, cloud.size());
 }
 

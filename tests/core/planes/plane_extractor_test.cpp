@@ -156,7 +156,9 @@ TEST(PlaneExtractor, ClutterIsNoPlane) {
   Cloud cloud;
   cloud.clutter({-3, -3, -1}, {3, 3, 2}, 20'000);
   PlaneExtractor extractor;
-  EXPECT_THAT(extractor.extract(cloud.view()).patches, SizeIs(0));
+  const PlanePatches found = extractor.extract(cloud.view());
+  // By chance a few points may lie well: one in two hundred at most.
+  EXPECT_GT(std::ranges::count(found.patch_of_point, kNoPatch), 19'900);
 }
 
 TEST(PlaneExtractor, ParallelPlanesApartAreTwo) {

@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/effort.hpp"
+
 namespace convexcut {
 namespace {
 
@@ -121,11 +123,11 @@ TEST(ByteRing, BehavesAsAQueueWithRoomForSoManyBytes) {
 
 TEST(ByteRing, TwoThreadsLoseNothingButWhatIsCounted) {
   ByteRing ring(16 * 1024);
-  constexpr std::uint64_t kRecords = 100'000;
+  const std::uint64_t records = test::repetitions(100'000);
   const auto size_of = [](std::uint64_t number) -> std::size_t { return 8 + number * 37 % 1500; };
   std::atomic<bool> done{false};
   std::thread producer([&] {
-    for (std::uint64_t number = 0; number < kRecords; ++number) {
+    for (std::uint64_t number = 0; number < records; ++number) {
       const std::size_t size = size_of(number);
       std::span<std::byte> room = ring.claim(size);
       // Every other record is insisted on, so that the ring is full most of the time.
@@ -160,8 +162,8 @@ TEST(ByteRing, TwoThreadsLoseNothingButWhatIsCounted) {
     if (last_look) break;
   }
   producer.join();
-  EXPECT_GE(taken, kRecords / 2);
-  EXPECT_GE(taken + ring.overruns(), kRecords);
+  EXPECT_GE(taken, records / 2);
+  EXPECT_GE(taken + ring.overruns(), records);
 }
 
 }  // namespace

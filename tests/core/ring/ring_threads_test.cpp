@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/ring/spsc_ring.hpp"
+#include "tests/support/effort.hpp"
 
 namespace convexcut {
 namespace {
@@ -95,16 +96,16 @@ class RingThreads : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(RingThreads, EveryBlockArrivesWholeAndInOrder) {
   SpscRing<Block> ring(GetParam());
-  constexpr std::uint64_t kSent = 100'000;
-  const Tally tally = run(ring, kSent, Policy::lossless, 64);
-  EXPECT_EQ(tally.popped, kSent);
+  const std::uint64_t sent = test::repetitions(100'000);
+  const Tally tally = run(ring, sent, Policy::lossless, 64);
+  EXPECT_EQ(tally.popped, sent);
   EXPECT_EQ(tally.torn, 0U);
   EXPECT_EQ(tally.out_of_order, 0U);
 }
 
 TEST_P(RingThreads, WhatIsDroppedIsCountedExactly) {
   SpscRing<Block> ring(GetParam());
-  constexpr std::uint64_t kSent = 300'000;
+  constexpr std::uint64_t kSent = 300'000;  // enough for the consumer to get a turn
   const Tally tally = run(ring, kSent, Policy::drop, 3);
   EXPECT_EQ(tally.popped + ring.overruns(), kSent);
   EXPECT_GT(tally.popped, ring.capacity());

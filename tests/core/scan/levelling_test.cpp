@@ -6,11 +6,13 @@
 
 #include <chrono>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/simd/simd_path.hpp"
 #include "tests/core/scan/rotation.hpp"
 #include "tests/core/scan/synthetic_lidar.hpp"
 
@@ -95,6 +97,37 @@ TEST(Levelling, RotationDuringTheScanIsTakenOut) {
   level(scan, kStamp, track, q_imu_from_lidar, levelled);
   ASSERT_EQ(levelled.size(), scan.size());
   for (std::size_t i = 0; i < levelled.size(); ++i) expect_point(levelled, i, p_level);
+}
+
+// Firings of any number of returns, so that vectors reach into the next one and past the last.
+TEST(Levelling, EveryInstructionSetGivesTheSameBits) {
+  Scan scan;
+  OrientationTrack track(40);
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Vec3> points;
+    for (int k = 0; k < i; ++k) points.emplace_back(0.7 * i, 1.3 * k - 9.0, 0.1 * i * k - 3.0);
+    add_firing(scan, i * 1ms, points);
+    if (i != 20) track.push(kStamp + i * 1ms, rpy(0.5 * i, 30.0 - i, 4.0 * i));
+  }
+  std::vector<float> expected;
+  for (std::size_t i = 0; i < scan.firings.size(); ++i) {
+    const Orientation at = track.at(kStamp + (scan.firings[i].time - kFirst));
+    const Eigen::Matrix3f r = at.rotation.toRotationMatrix().cast<float>();
+    for (std::size_t k = 0; k < scan.firings[i].return_count; ++k) {
+      const std::size_t p = scan.firings[i].first_return + k;
+      expected.push_back(r(0, 0) * scan.x_lidar[p] + r(0, 1) * scan.y_lidar[p] +
+                         r(0, 2) * scan.z_lidar[p]);
+    }
+  }
+  for (const std::string_view path : simd_paths()) {
+    ASSERT_TRUE(use_simd_path(path));
+    LevelledScan levelled = reserved(scan.size());
+    level(scan, kStamp, track, Quaternion::Identity(), levelled);
+    EXPECT_EQ(levelled.x, expected) << path;
+    EXPECT_EQ(levelled.ring, scan.ring) << path;
+    EXPECT_EQ(levelled.time_ns, scan.time_ns) << path;
+  }
+  ASSERT_TRUE(use_simd_path("auto"));
 }
 
 TEST(Levelling, PointsWithoutAnOrientationAreDroppedAndCounted) {

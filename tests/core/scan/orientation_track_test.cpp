@@ -137,6 +137,34 @@ TEST(OrientationTrack, ClearedTrackTakesEarlierTimes) {
   EXPECT_TRUE(track.push(kStart - 1h, yaw(0)));
 }
 
+TEST(OrientationTrack, InterpolationIsThatOfSlerpForAnyTurn) {
+  for (double degrees = 0.0; degrees < 180.0; degrees += 7.5) {
+    const Quaternion from = to_quaternion({Degrees{10}, Degrees{-20}, Degrees{30}});
+    const Quaternion to = from * Quaternion(Eigen::AngleAxisd(Degrees{degrees}.to_radians().value,
+                                                              Vec3(1, 2, -2).normalized()));
+    OrientationTrack track(4);
+    track.push(kStart, from);
+    track.push(kStart + 40ms, to);
+    for (int k = 0; k <= 40; ++k) {
+      const Quaternion expected = from.slerp(k / 40.0, to);
+      EXPECT_NEAR(std::abs(track.at(kStart + k * 1ms).rotation.dot(expected)), 1.0, 1e-14);
+      EXPECT_LT(track.at(kStart + k * 1ms).rotation.angularDistance(expected), 1e-7);
+    }
+  }
+}
+
+TEST(OrientationTrack, WhatWasInterpolatedBeforeIsForgottenWithItsSamples) {
+  OrientationTrack track(2);
+  track.push(kStart, Quaternion::Identity());
+  track.push(kStart + 10ms, Quaternion::Identity());
+  EXPECT_NE(track.at(kStart + 5ms).quality, OrientationQuality::missing);
+  track.push(kStart + 20ms, Quaternion::Identity());
+  EXPECT_EQ(track.at(kStart + 5ms).quality, OrientationQuality::missing);
+  EXPECT_NE(track.at(kStart + 15ms).quality, OrientationQuality::missing);
+  track.clear();
+  EXPECT_EQ(track.at(kStart + 15ms).quality, OrientationQuality::missing);
+}
+
 TEST(OrientationTrack, MaxAgeIsConfigurable) {
   OrientationTrack track(4, 5ms);
   track.push(kStart, yaw(0));

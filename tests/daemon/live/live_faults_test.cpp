@@ -65,6 +65,17 @@ TEST_F(LiveFault, PacketsTwiceAndOutOfOrderAreCountedAndNothingIsLost) {
   expect_results_all_the_time();
 }
 
+TEST_F(LiveFault, PacketsThatAreHeldUpOnTheWayAreAllUsed) {
+  make_room({"--seconds", "2", "--empty"});
+  play({"--delay", "20"});
+  EXPECT_EQ(ended_with("packets"), counted(sent_.out, "data_packets"));
+  EXPECT_EQ(ended_with("lost_packets"), 0) << run_.err;
+  EXPECT_EQ(ended_with("late_packets"), 0);
+  EXPECT_GE(scans(), 18);
+  expect_results_all_the_time();
+  expect_nothing_dropped_here();
+}
+
 TEST_F(LiveFault, GarbageDatagramsAreCountedAndNothingIsLost) {
   make_room({"--seconds", "2", "--empty"});
   play({"--garbage", "0.05"});
@@ -218,6 +229,7 @@ TEST_F(ChangedRecording, RotorThatStandsGivesResultsAllTheTime) {
   EXPECT_EQ(ended_with("packets"), counted(sent_.out, "data_packets"));
   // A revolution that does not end is given out after 300 ms.
   EXPECT_NEAR(static_cast<double>(scans()), 2400.0 / 300.0, 2.0);
+  EXPECT_THAT(run_.err, HasSubstr("lidar not turning"));
   expect_results_all_the_time();
   expect_nothing_dropped_here();
 }

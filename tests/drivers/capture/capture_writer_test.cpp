@@ -15,6 +15,7 @@
 
 #include "drivers/capture/capture_reader.hpp"
 #include "tests/drivers/capture/capture_bytes.hpp"
+#include "tests/support/output_of.hpp"
 #include "tests/support/recordings.hpp"
 
 namespace convexcut::capture {
@@ -246,27 +247,17 @@ TEST_F(FullDisk, IsReportedByCloseWhenEverythingWasBuffered) {
   EXPECT_FALSE(std::filesystem::exists(file()));
 }
 
-std::string output_of(const std::string& command) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"),
-                                                             ::pclose);
-  std::string output;
-  if (pipe == nullptr) return output;
-  for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get())) {
-    output.push_back(static_cast<char>(c));
-  }
-  return output;
-}
-
 TEST_F(Writer, TsharkReadsTheSameAndFindsTheIpChecksumGood) {
-  if (output_of("tshark --version 2>/dev/null").empty()) GTEST_SKIP() << "needs tshark";
+  if (test::output_of("tshark --version 2>/dev/null").empty()) GTEST_SKIP() << "needs tshark";
   CaptureWriter writer(file(), LinkKind::ethernet);
   writer.write(datagram(text("hi")));
   writer.close();
-  EXPECT_EQ(output_of("tshark -r " + file().string() +
+  EXPECT_EQ(
+      test::output_of("tshark -r " + file().string() +
                       " -o ip.check_checksum:TRUE -T fields -e frame.time_epoch -e ip.src -e ip.dst"
                       " -e ip.checksum.status -e udp.srcport -e udp.dstport -e data.data"
                       " -E separator=, 2>/dev/null"),
-            "1700000000.123456789,192.168.1.201,255.255.255.255,1,2368,8308,6869\n");
+      "1700000000.123456789,192.168.1.201,255.255.255.255,1,2368,8308,6869\n");
 }
 
 }  // namespace

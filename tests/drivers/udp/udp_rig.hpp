@@ -29,13 +29,13 @@ class CollectingTap final : public live::RawTap {
 class UdpRig {
  public:
   explicit UdpRig(const UdpSocketOptions& socket = {},
-                  std::optional<Ipv4Address> from = std::nullopt)
+                  std::optional<Ipv4Address> from = std::nullopt, Duration gather = {})
       : driver({.model = velodyne::ModelId::hdl32e,
                 .data_port = data_port,
                 .position_port = position_port,
                 .from = from},
                sink),
-        source({data_port, position_port, socket}, driver, &tap) {}
+        source({data_port, position_port, socket, gather}, driver, &tap) {}
 
   // Receives until it is so; false after a time that no test takes unless it fails.
   bool receive_until(const std::function<bool()>& done) {

@@ -4,6 +4,8 @@
 #include "drivers/udp/udp_source.hpp"
 
 #include <cerrno>
+#include <chrono>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +66,25 @@ TEST(UdpSource, EveryDatagramOfABurstIsReceivedInOrder) {
   EXPECT_EQ(rig.source.counters().kernel_drops.value(), 0U);
   EXPECT_EQ(rig.source.counters().batches.value(),
             (kBurst + DatagramBatch::kCapacity - 1) / DatagramBatch::kCapacity);
+}
+
+TEST(UdpSource, WhatComesWhileItGathersIsTakenTogether) {
+  constexpr std::chrono::milliseconds kGather{500};  // much more than the sender needs
+  UdpRig rig({}, std::nullopt, kGather);
+  ASSERT_TRUE(rig.link_becomes(live::LinkState::open));
+  const UdpSender sender;
+  sender.send(kHere, rig.data_port, DataPacket().timestamp(1).bytes());
+  ASSERT_TRUE(rig.receive_datagrams(1));
+  std::thread later([&] {
+    for (std::uint32_t i = 2; i <= 4; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds{5});
+      sender.send(kHere, rig.data_port, DataPacket().timestamp(i).bytes());
+    }
+  });
+  rig.source.receive(2 * kGather);
+  later.join();
+  EXPECT_EQ(rig.source.counters().datagrams.value(), 4U);
+  EXPECT_EQ(rig.source.counters().batches.value(), 2U);
 }
 
 TEST(UdpSource, DatagramsThatTheKernelDroppedAreCountedToTheLast) {

@@ -3,14 +3,19 @@
 // Random packets of every model against the formulas written out once more, in double and with the
 // C library's functions. Does not prove: the tables, which both share, nor glitch handling, which
 // the oracle leaves out.
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <random>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/simd/simd_path.hpp"
 #include "drivers/velodyne/decoder.hpp"
+#include "drivers/velodyne/sin_cos.hpp"
 #include "tests/drivers/velodyne/packets.hpp"
 
 namespace convexcut::velodyne {
@@ -112,6 +117,81 @@ TEST_P(DecoderOracle, RandomPacketsComeOutAsTheFormulasSay) {
     ASSERT_EQ(decoder.decode(made.packet.bytes(), HostTime{}, batch), DecodeStatus::ok);
     expect_equal(batch, made.returns);
     if (HasFatalFailure()) return;
+  }
+}
+
+// Every column up to the number of returns, as bits.
+std::vector<std::uint32_t> bits_of(const ReturnBatch& batch) {
+  std::vector<std::uint32_t> bits{batch.return_count, batch.firing_count};
+  for (std::size_t i = 0; i < batch.return_count; ++i) {
+    for (const float value :
+         {batch.x_lidar[i], batch.y_lidar[i], batch.z_lidar[i], batch.range_m[i]}) {
+      bits.push_back(std::bit_cast<std::uint32_t>(value));
+    }
+    bits.push_back(batch.offset_ns[i]);
+    bits.push_back(static_cast<std::uint32_t>(batch.intensity[i]) << 16U |
+                   static_cast<std::uint32_t>(batch.ring[i]) << 8U |
+                   static_cast<std::uint32_t>(batch.echo[i]) << 1U |
+                   static_cast<std::uint32_t>(batch.farthest[i]));
+  }
+  for (std::size_t i = 0; i < batch.firing_count; ++i) {
+    bits.push_back(static_cast<std::uint32_t>(batch.firings[i].azimuth.microdegrees()));
+    bits.push_back(static_cast<std::uint32_t>(batch.firings[i].first_return << 16U |
+                                              batch.firings[i].return_count));
+  }
+  return bits;
+}
+
+TEST_P(DecoderOracle, EveryInstructionSetGivesTheSameBits) {
+  const auto [id, dual] = GetParam();
+  const DataDecoder decoder(model_of(id));
+  // NOLINTNEXTLINE(cert-msc32-c,cert-msc51-cpp)
+  std::mt19937 random(7);
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    const Case made = random_case(model_of(id), dual, random);
+    std::vector<std::uint32_t> first;
+    for (const std::string_view path : simd_paths()) {
+      ASSERT_TRUE(use_simd_path(path));
+      ReturnBatch batch;
+      ASSERT_EQ(decoder.decode(made.packet.bytes(), HostTime{}, batch), DecodeStatus::ok);
+      if (first.empty()) first = bits_of(batch);
+      EXPECT_EQ(bits_of(batch), first) << path;
+    }
+    ASSERT_TRUE(use_simd_path("auto"));
+  }
+}
+
+// The kernels' lanes against the same arithmetic on one return, with whole microdegrees as
+// integers: the promise is one rounding to float and nothing else.
+TEST(DecoderBits, AreThoseOfTheFormulasInDouble) {
+  const Model& model = model_of(ModelId::hdl32e);
+  // NOLINTNEXTLINE(cert-msc32-c,cert-msc51-cpp)
+  std::mt19937 random(11);
+  const DataDecoder decoder(model);
+  for (int first = 0; first < 36'000; first += 97) {
+    const std::uint16_t step = static_cast<std::uint16_t>(random() % 34);
+    DataPacket packet;
+    packet.azimuths(static_cast<std::uint16_t>(first), step);
+    for (std::size_t slot = 0; slot < 32; ++slot) {
+      packet.echo(3, slot, static_cast<std::uint16_t>(random() % 65'535 + 1));
+    }
+    ReturnBatch batch;
+    ASSERT_EQ(decoder.decode(packet.bytes(), HostTime{}, batch), DecodeStatus::ok);
+    ASSERT_EQ(batch.return_count, 32);
+    for (std::size_t i = 0; i < 32; ++i) {
+      const std::int64_t share =
+          ((std::int64_t{model.laser_time_ns(i)} << 32) + 23'040) / model.block_period_ns();
+      const std::int64_t turned =
+          (std::int64_t{step} * 10'000 * share + (std::int64_t{1} << 31)) >> 32;
+      const std::int64_t block = (std::int64_t{first} + 3 * step) % 36'000;
+      const SinCos azimuth = sin_cos(Azimuth::from_microdegrees(block * 10'000 + turned));
+      const SinCos elevation =
+          sin_cos(Azimuth::from_microdegrees(std::int64_t{model.elevation_mdeg[i]} * 1000));
+      const double range = std::round(static_cast<double>(batch.range_m[i]) * 500.0) * (2 * 1e-3);
+      ASSERT_EQ(batch.x_lidar[i], static_cast<float>(range * (elevation.cos * azimuth.cos)));
+      ASSERT_EQ(batch.y_lidar[i], static_cast<float>(range * (-elevation.cos * azimuth.sin)));
+      ASSERT_EQ(batch.z_lidar[i], static_cast<float>(range * elevation.sin));
+    }
   }
 }
 

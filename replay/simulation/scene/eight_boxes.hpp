@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes along the axes as floats, four at a time, and the question which of them a ray may meet.
+// Boxes along the axes as floats, eight at a time, and the question which of them a ray may meet.
 // The answer is never a false no: boxes are padded by more than float rounds their coordinates, and
 // distances, which round by parts of themselves, are compared with slack.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "replay/simulation/scene/bounds.hpp"
 #include "replay/simulation/scene/ray.hpp"
@@ -19,13 +26,14 @@ namespace convexcut::simulation {
 // Metres, ±: within this a float box is exact to 0.03 mm, less than its padding.
 inline constexpr double kLargestCoordinate = 500.0;
 
-struct FourBoxes {
-  using Lanes = std::array<float, 4>;
+struct EightBoxes {
+  static constexpr std::size_t kLanes = 8;
+  using Lanes = std::array<float, kLanes>;
   std::array<std::array<Lanes, 3>, 2> sides;  // [low, high][axis]
 
-  // Four boxes that no ray meets.
-  [[nodiscard]] static FourBoxes nothing() noexcept {
-    FourBoxes boxes;
+  // Boxes that no ray meets.
+  [[nodiscard]] static EightBoxes nothing() noexcept {
+    EightBoxes boxes;
     for (Lanes& lanes : boxes.sides[0]) lanes.fill(std::numeric_limits<float>::infinity());
     for (Lanes& lanes : boxes.sides[1]) lanes.fill(-std::numeric_limits<float>::infinity());
     return boxes;
@@ -41,8 +49,10 @@ struct FourBoxes {
   }
 };
 
-// The compilers make one instruction of each operation on these.
+// Half of the eight: what every processor has registers for. The compilers make one instruction of
+// each operation on these.
 using Floats = float __attribute__((vector_size(16)));
+using Masks = std::int32_t __attribute__((vector_size(16)));  // all bits, or none
 
 // A ray as the boxes need it.
 class BoxRay {
@@ -58,24 +68,31 @@ class BoxRay {
       origin_[axis] = all(static_cast<float>(ray.origin[index]));
       inverse_[axis] = all(static_cast<float>(1.0 / safe));
     }
-    least_ = all(static_cast<float>(ray.min_distance_m) * (1.0F - kRelativeSlack) - kSlackM);
+    const float least = static_cast<float>(ray.min_distance_m) * (1.0F - kRelativeSlack) - kSlackM;
+    least_ = all(std::max(least, 0.0F));
   }
 
-  // Calls met(lane, where the ray enters) for each box that the ray may meet before `limit`.
+  // Calls met(lane, where the ray enters, ≥ 0) for each box that the ray may meet before `limit`.
   template <class Met>
-  void meet(const FourBoxes& boxes, float limit, Met&& met) const noexcept {
-    Floats enter = least_;
-    Floats leave = all(limit);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t backwards = backwards_[axis];
-      const Floats near = load(boxes.sides[backwards][axis]);
-      const Floats far = load(boxes.sides[1 - backwards][axis]);
-      enter = larger(enter, (near - origin_[axis]) * inverse_[axis]);
-      leave = smaller(leave, (far - origin_[axis]) * inverse_[axis]);
+  void meet(const EightBoxes& boxes, float limit, Met&& met) const noexcept {
+    unsigned hits = 0;
+    EightBoxes::Lanes enters;
+    for (std::size_t first = 0; first < EightBoxes::kLanes; first += 4) {
+      Floats enter = least_;
+      Floats leave = all(limit);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t backwards = backwards_[axis];
+        const Floats near = load(boxes.sides[backwards][axis], first);
+        const Floats far = load(boxes.sides[1 - backwards][axis], first);
+        enter = larger(enter, (near - origin_[axis]) * inverse_[axis]);
+        leave = smaller(leave, (far - origin_[axis]) * inverse_[axis]);
+      }
+      hits |= bits_of(enter <= leave * all(1.0F + kRelativeSlack)) << first;
+      std::memcpy(enters.data() + first, &enter, sizeof enter);
     }
-    const auto hits = enter <= leave * all(1.0F + kRelativeSlack);
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-      if (hits[lane] != 0) met(lane, enter[lane]);
+    for (; hits != 0; hits &= hits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(hits));
+      met(lane, enters[lane]);
     }
   }
 
@@ -91,9 +108,19 @@ class BoxRay {
   static Floats all(float value) noexcept { return Floats{value, value, value, value}; }
   static Floats larger(Floats a, Floats b) noexcept { return a > b ? a : b; }
   static Floats smaller(Floats a, Floats b) noexcept { return a < b ? a : b; }
-  static Floats load(const FourBoxes::Lanes& lanes) noexcept {
+  // Bit 0 for the first lane, and so on.
+  static unsigned bits_of(Masks masks) noexcept {
+#ifdef __SSE2__
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(masks)));
+#else
+    unsigned bits = 0;
+    for (unsigned lane = 0; lane < 4; ++lane) bits |= masks[lane] != 0 ? 1U << lane : 0U;
+    return bits;
+#endif
+  }
+  static Floats load(const EightBoxes::Lanes& lanes, std::size_t first) noexcept {
     Floats floats;
-    std::memcpy(&floats, lanes.data(), sizeof floats);
+    std::memcpy(&floats, lanes.data() + first, sizeof floats);
     return floats;
   }
 
