@@ -62,7 +62,9 @@ TEST(RobustScenes, HouseIsThePapersFigure3) {
     ASSERT_TRUE(house.kept.contains(name)) << name;
     EXPECT_GT(house.kept.at(name), 0.6) << name;
   }
-  if (house.kept.contains("C2")) EXPECT_GT(house.kept.at("C2"), 0.6);
+  if (house.kept.contains("C2")) {
+    EXPECT_GT(house.kept.at("C2"), 0.6);
+  }
   for (const std::string name : {"E", "D"}) {
     ASSERT_TRUE(house.kept.contains(name)) << name;
     EXPECT_LT(house.kept.at(name), 0.15) << name;
