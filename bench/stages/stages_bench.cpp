@@ -206,7 +206,7 @@ struct Labelling {
   std::vector<Label> labels = std::vector<Label>(cloud.x.size());
   ConvexCutEngine engine{{}, cloud.x.size(), 1};
   StreamingCut streaming{{}, cloud.x.size()};
-  ShellIndex index{ConvexCutParameters{}.half_width_m, cloud.x.size()};
+  ShellIndex index{ConvexCutParameters{}.half_width_m, cloud.x.size(), 1};
   SliceWorker worker{{}, cloud.x.size()};
   PlaneGroups planes{ConvexCutParameters{}.planes};
 

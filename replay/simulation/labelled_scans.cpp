@@ -71,6 +71,7 @@ ImuErrors imu_errors(const LabelledScanOptions& options) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): in the order of construction
 class LabelledScans::Run {
  public:
   Run(Scene scene, const LabelledScanOptions& options)

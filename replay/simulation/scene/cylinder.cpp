@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "replay/simulation/scene/shapes.hpp"
 
 namespace convexcut::simulation {
 
-Cylinder::Cylinder(const Vec3& from, const Vec3& to, double radius, Ends ends) noexcept
-    : from_(from),
-      axis_((to - from).normalized()),
-      length_((to - from).norm()),
+Cylinder::Cylinder(Vec3 from, const Vec3& to, double radius, Ends ends) noexcept
+    : from_(std::move(from)),
+      axis_((to - from_).normalized()),
+      length_((to - from_).norm()),
       radius_(radius),
       ends_(ends) {}
 

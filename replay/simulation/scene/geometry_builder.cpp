@@ -43,6 +43,10 @@ Split best_split(Items items, const Bounds& centres, Eigen::Index axis) {
   struct Bin {
     Bounds bounds;
     std::size_t count = 0;
+    [[nodiscard]] double cost() const {
+      if (count == 0) return kNoHit;
+      return static_cast<double>(count) * bounds.area();
+    }
   };
   const double low = centres.low[axis];
   const double width = (centres.high[axis] - low) / kBins;
@@ -59,15 +63,14 @@ Split best_split(Items items, const Bounds& centres, Eigen::Index axis) {
   for (std::size_t i = kBins - 1; i > 0; --i) {
     sum.bounds.add(bins[i].bounds);
     sum.count += bins[i].count;
-    cost_above[i] = sum.count == 0 ? kNoHit : static_cast<double>(sum.count) * sum.bounds.area();
+    cost_above[i] = sum.cost();
   }
   Split best;
   sum = {};
   for (std::size_t i = 1; i < kBins; ++i) {
     sum.bounds.add(bins[i - 1].bounds);
     sum.count += bins[i - 1].count;
-    if (sum.count == 0) continue;
-    const double cost = cost_above[i] + static_cast<double>(sum.count) * sum.bounds.area();
+    const double cost = cost_above[i] + sum.cost();
     if (cost < best.cost) best = {axis, low + width * static_cast<double>(i), cost};
   }
   return best;

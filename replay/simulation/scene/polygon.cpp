@@ -55,7 +55,8 @@ double Polygon::meet(const Ray& ray, double nearest) const noexcept {
   // Written so that NaN is no hit.
   if (!(distance >= ray.min_distance_m && distance < nearest)) return kNoHit;
   const Vec3 p = ray.origin + distance * ray.direction;
-  return contains(p.dot(axis_u_), p.dot(axis_v_)) ? distance : kNoHit;
+  if (!contains(p.dot(axis_u_), p.dot(axis_v_))) return kNoHit;
+  return distance;
 }
 
 bool Polygon::contains(double u, double v) const noexcept {

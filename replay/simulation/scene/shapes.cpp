@@ -40,7 +40,8 @@ double Flat::meet(const Ray& ray, double nearest) const noexcept {
   const double last = form_ == Form::triangle ? 1.0 - u : 1.0;
   if (v < -kEdgeTolerance || v > last + kEdgeTolerance) return kNoHit;
   const double distance = edge_v_.dot(turned) * scale;
-  return within(ray, distance, nearest) ? distance : kNoHit;
+  if (!within(ray, distance, nearest)) return kNoHit;
+  return distance;
 }
 
 Vec3 Flat::normal_at(const Vec3& /*p*/) const noexcept { return normal_; }
@@ -59,10 +60,10 @@ Flat Flat::placed(const RigidTransform& world_from_local) const noexcept {
           world_from_local.rotation * edge_v_, form_};
 }
 
-Block::Block(const RigidTransform& world_from_block, const Vec3& half_size) noexcept
+Block::Block(const RigidTransform& world_from_block, Vec3 half_size) noexcept
     : block_from_world_(world_from_block.rotation.conjugate().toRotationMatrix()),
       centre_(world_from_block.translation),
-      half_size_(half_size) {}
+      half_size_(std::move(half_size)) {}
 
 double Block::meet(const Ray& ray, double nearest) const noexcept {
   const Vec3 origin = block_from_world_ * (ray.origin - centre_);
@@ -83,7 +84,8 @@ double Block::meet(const Ray& ray, double nearest) const noexcept {
   }
   if (enter > leave) return kNoHit;
   if (within(ray, enter, nearest)) return enter;
-  return within(ray, leave, nearest) ? leave : kNoHit;
+  if (within(ray, leave, nearest)) return leave;
+  return kNoHit;
 }
 
 Vec3 Block::normal_at(const Vec3& p) const noexcept {
@@ -113,7 +115,8 @@ double Sphere::meet(const Ray& ray, double nearest) const noexcept {
   if (squared < 0.0) return kNoHit;
   const double reach = std::sqrt(squared);
   if (within(ray, middle - reach, nearest)) return middle - reach;
-  return within(ray, middle + reach, nearest) ? middle + reach : kNoHit;
+  if (within(ray, middle + reach, nearest)) return middle + reach;
+  return kNoHit;
 }
 
 Vec3 Sphere::normal_at(const Vec3& p) const noexcept { return (p - centre_).normalized(); }

@@ -71,7 +71,7 @@ class Polygon {
 // A box in any orientation.
 class Block {
  public:
-  Block(const RigidTransform& world_from_block, const Vec3& half_size) noexcept;
+  Block(const RigidTransform& world_from_block, Vec3 half_size) noexcept;
 
   [[nodiscard]] double meet(const Ray& ray, double nearest) const noexcept;
   [[nodiscard]] Vec3 normal_at(const Vec3& p) const noexcept;
@@ -89,7 +89,7 @@ class Cylinder {
  public:
   enum class Ends : bool { open, closed };
   // From the middle of one end to that of the other.
-  Cylinder(const Vec3& from, const Vec3& to, double radius, Ends ends) noexcept;
+  Cylinder(Vec3 from, const Vec3& to, double radius, Ends ends) noexcept;
   // Of the mantle only what turns from `zero` about the axis by `from` … `from` + `extent`;
   // 0 < extent < 360°.
   [[nodiscard]] Cylinder part(const Vec3& zero, Radians from, Radians extent) const noexcept;
