@@ -15,7 +15,6 @@ constexpr std::size_t kLeastCells = 3;
 constexpr std::uint32_t kLargeSurfels = 60;  // of a wall; smaller ones have no sure face
 constexpr float kBinM = 0.004F;
 constexpr std::size_t kBins = 41;   // ±8 cm
-constexpr float kFaceShare = 0.4F;  // relative to the height that most cells have
 constexpr float kToFloorM = 0.4F;
 constexpr float kDoorHeightM = 1.5F;
 constexpr float kRoomHighM = 2.2F;  // a layer as high as that is a part of the wall
@@ -27,7 +26,7 @@ constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
   return cell.height_sum_m / static_cast<float>(cell.points);
 }
 
-// The rearmost height over the plane that many cells have: a wall may be covered for the most part.
+// The height over the plane that most cells have.
 [[nodiscard]] float face_of(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
   std::array<std::int32_t, kBins> cells{};
   for (std::int32_t row = 0; row < grid.rows; ++row) {
@@ -41,20 +40,14 @@ constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
       }
     }
   }
-  const auto around = [&](std::size_t bin) {
-    return cells.at(bin - 1) + 2 * cells.at(bin) + cells.at(bin + 1);
-  };
-  std::int32_t most = 0;
-  for (std::size_t bin = 1; bin + 1 < kBins; ++bin) most = std::max(most, around(bin));
   std::size_t best = kBins / 2;
-  for (std::size_t bin = kBins - 2; bin > 0; --bin) {
-    const bool is_peak = around(bin) >= around(bin - 1 > 0 ? bin - 1 : bin) &&
-                         around(bin) >= around(bin + 2 < kBins ? bin + 1 : bin);
-    if (is_peak && static_cast<float>(around(bin)) >= kFaceShare * static_cast<float>(most)) {
-      best = bin;
-    }
+  std::int32_t most = 0;
+  for (std::size_t bin = 1; bin + 1 < kBins; ++bin) {
+    const std::int32_t around = cells.at(bin - 1) + 2 * cells.at(bin) + cells.at(bin + 1);
+    if (around <= most) continue;
+    most = around;
+    best = bin;
   }
-  if (most == 0) best = kBins / 2;
   return (static_cast<float>(best) - static_cast<float>(kBins / 2)) * kBinM;
 }
 
@@ -77,7 +70,10 @@ void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
       for (std::int32_t column = 0; column < grid.columns; ++column) {
         if (!is_off(grids.cell(grid, column, row), plane.face_m)) continue;
         collect_layer(grids, grid, plane.face_m, {column, row});
-        if (layer_.size() >= kLeastCells && !is_of_the_wall(model, plane, grid)) continue;
+        if (layer_.size() >= kLeastCells && !is_of_the_wall(model, plane, grid) &&
+            (is_in_front(grids, grid) || is_in_a_recess(grids, grid))) {
+          continue;
+        }
         for (const Place& at : layer_) grids.cell(grid, at.column, at.row).layer_m = 0.0F;
       }
     }
@@ -105,6 +101,23 @@ void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float fac
       }
     }
   }
+}
+
+bool Fixtures::is_in_front(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept {
+  return grids.cell(grid, layer_.front().column, layer_.front().row).layer_m > 0.0F;
+}
+
+// What lies behind the face is a blind in a window when wall is seen above most of it; otherwise it
+// is the wall, and what stands before it was taken for the face.
+bool Fixtures::is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept {
+  const auto under_wall = std::count_if(layer_.begin(), layer_.end(), [&](const Place& at) {
+    for (std::int32_t row = at.row + 1; row < grid.rows; ++row) {
+      const Cell& above = grids.cell(grid, at.column, row);
+      if (above.structure && above.layer_m == 0.0F) return true;
+    }
+    return false;
+  });
+  return 2 * static_cast<std::size_t>(under_wall) > layer_.size();
 }
 
 bool Fixtures::is_of_the_wall(const Model& model, const Plane& plane,

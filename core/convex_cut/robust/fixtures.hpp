@@ -25,6 +25,8 @@ class Fixtures {
     std::int32_t column, row;
   };
   void collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float face_m, Place seed) noexcept;
+  [[nodiscard]] bool is_in_front(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept;
+  [[nodiscard]] bool is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept;
   [[nodiscard]] bool is_of_the_wall(const Model& model, const Plane& plane,
                                     const PlaneGrid& grid) const noexcept;
 

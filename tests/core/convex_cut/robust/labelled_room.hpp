@@ -42,9 +42,10 @@ struct Sight {
   double tilt_deg = 0.0;
   double yaw_deg = 0.0;
   double noise_m = 0.02;
-  double ghosts = 0.0;       // share of the points that are anywhere along their ray
-  double gravity_deg = 0.0;  // the cloud is turned by it about y
-  Vec3 position = Vec3::Zero();
+  double ghosts = 0.0;           // share of the points that are anywhere along their ray
+  double gravity_deg = 0.0;      // the cloud is turned by it about y
+  Vec3 position = Vec3::Zero();  // in the middle of the revolution
+  Vec3 step = Vec3::Zero();      // of the lidar from its start to its end
   std::uint64_t seed = 1;
 };
 
@@ -96,11 +97,12 @@ struct Meeting {
   const Quaternion q_gravity = to_quaternion({{0.0}, {sight.gravity_deg}, {0.0}});
   for (int firing = 0; firing < kFirings; ++firing) {
     const double azimuth = 2.0 * std::numbers::pi * firing / kFirings;
+    const Vec3 from = sight.position + (static_cast<double>(firing) / kFirings - 0.5) * sight.step;
     for (int laser = 0; laser < kLasers; ++laser) {
       const double elevation = (-30.67 + laser * 41.34 / 31.0) * kDegree;
       const Vec3 ray = q * Vec3(std::cos(elevation) * std::cos(azimuth),
                                 -std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-      Meeting meeting = look(room, sight.position, ray);
+      Meeting meeting = look(room, from, ray);
       meeting.range += sight.noise_m * random.normal();
       if (sight.ghosts > 0.0 && random.uniform(0.0, 1.0) < sight.ghosts) {
         meeting = {random.uniform(1.0, meeting.range + 6.0), kGhost};

@@ -131,9 +131,10 @@ TEST(RobustCut, FollowsARigThatMoves) {
     RobustCut robust({}, kMostPoints);
     Kept kept;
     for (int i = 0; i < 20; ++i) {
-      const Vec3 position(-1.0 + 0.08 * i, -0.04 * i, 0.0);
-      kept.cloud =
-          revolution_in(room, {.position = position, .seed = 1U + static_cast<unsigned>(i)});
+      const Vec3 step(0.08, -0.04, 0.0);
+      const Vec3 position = Vec3(-1.0, 0.0, 0.0) + i * step;
+      kept.cloud = revolution_in(
+          room, {.position = position, .step = step, .seed = 1U + static_cast<unsigned>(i)});
       kept.labels.assign(kept.cloud.cloud.size(), Label::other);
       ASSERT_EQ(robust.label(kept.cloud.cloud.view(), kept.labels,
                              told ? std::optional(position) : std::nullopt),
