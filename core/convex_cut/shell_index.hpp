@@ -53,7 +53,8 @@ class ShellIndex {
   // The same in steps for several threads: a counting sort. Every call of a step is made once, in
   // any thread, and all of them have returned before the next step begins.
   //  1. begin
-  //  2. count(part_number) for each part: sorts nothing yet. Returns the bit pattern of the greatest
+  //  2. count(part_number) for each part: sorts nothing yet. Returns the bit pattern of the
+  //  greatest
   //     magnitude of a coordinate (see greatest_magnitude_bits); when that is beyond
   //     kMaxCoordinateM, the part has not been counted and the build has to be given up.
   //  3. lay_out

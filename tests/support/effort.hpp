@@ -24,6 +24,7 @@ namespace convexcut::test {
 
 }  // namespace convexcut::test
 
-#define CONVEXCUT_LONG_TEST()                                                                   \
-  if (convexcut::test::test_percent() < 100) GTEST_SKIP() << "CONVEXCUT_TEST_PERCENT asks for " \
-                                                             "less"
+#define CONVEXCUT_LONG_TEST()                        \
+  if (convexcut::test::test_percent() < 100)         \
+  GTEST_SKIP() << "CONVEXCUT_TEST_PERCENT asks for " \
+                  "less"
