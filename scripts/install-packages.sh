@@ -22,10 +22,13 @@ for group in "$@"; do
   esac
 done
 
+# A library may be here for another architecture only, or for both.
+native=$(dpkg --print-architecture)
 missing=()
 for package in "${wanted[@]}"; do
-  state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
-  [ "$state" = installed ] || missing+=("$package")
+  case "$package" in *:*) architecture=${package#*:} ;; *) architecture=$native ;; esac
+  dpkg-query -W -f '${Architecture} ${db:Status-Status}\n' "${package%:*}" 2>/dev/null |
+    grep -qxE "($architecture|all) installed" || missing+=("$package")
 done
 [ ${#missing[@]} -gt 0 ] || exit 0
 
