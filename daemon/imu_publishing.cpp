@@ -7,7 +7,7 @@ namespace convexcut::daemon {
 namespace {
 
 // The stop flag is looked at this often.
-constexpr Duration kLongestWait = std::chrono::milliseconds{50};
+constexpr Duration kLongestSampleWait = std::chrono::milliseconds{50};
 
 // No IMU is silent for so long, or goes back so far: the host's clock was set, or the device was
 // away. The mapping would notice, but seconds later.
@@ -28,7 +28,7 @@ void ImuPublishing::run(const std::atomic<bool>& stop, const std::atomic<bool>& 
     } else if (ended) {
       return;
     } else {
-      filled_.wait(kLongestWait);
+      filled_.wait(kLongestSampleWait);
     }
   }
 }

@@ -14,7 +14,7 @@
 namespace convexcut::replay {
 namespace {
 
-struct Arguments {
+struct EvaluateArguments {
   evaluation::EvaluateOptions options;
   std::filesystem::path json;
   std::filesystem::path html;
@@ -28,7 +28,7 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   out.commit();
 }
 
-std::string html_of(const Arguments& args, evaluation::Evaluator& evaluator,
+std::string html_of(const EvaluateArguments& args, evaluation::Evaluator& evaluator,
                     const evaluation::Evaluation& result) {
   std::vector<evaluation::ErrorMap> maps;
   evaluation::MatchedScan matched;
@@ -42,7 +42,7 @@ std::string html_of(const Arguments& args, evaluation::Evaluator& evaluator,
   return evaluation::report_html(result, title, maps);
 }
 
-int run(const Arguments& args) {
+int run_evaluate(const EvaluateArguments& args) {
   evaluation::Evaluator evaluator(args.options);
   evaluation::Evaluation result;
   {
@@ -67,7 +67,7 @@ Command add_evaluate(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "evaluate",
       "Compare the result of convexcut process with the truth of a simulated recording");
-  const auto args = std::make_shared<Arguments>();
+  const auto args = std::make_shared<EvaluateArguments>();
   app->add_option("--truth", args->options.truth, "The folder that convexcut simulate wrote")
       ->type_name("DIR")
       ->required();
@@ -91,7 +91,7 @@ Command add_evaluate(CLI::App& root) {
       "  convexcut simulate --scene office --seconds 10 --seed 1 --out office\n"
       "  convexcut process --lidar office/lidar.pcap --imu office/imu.pcap --out scans\n"
       "  convexcut evaluate --truth office --result scans --html report.html");
-  return {app, [args] { return run(*args); }};
+  return {app, [args] { return run_evaluate(*args); }};
 }
 
 }  // namespace convexcut::replay

@@ -11,7 +11,7 @@
 namespace convexcut::replay {
 namespace {
 
-struct Arguments {
+struct InfoArguments {
   command_line::RecordingArguments recordings;
   command_line::ConfigArguments config;
   bool cpu = false;
@@ -31,7 +31,7 @@ void print_cpu(bool json) {
       in_use.c_str(), available.c_str());
 }
 
-int run(const Arguments& args) {
+int run_info(const InfoArguments& args) {
   const daemon::RecordingPaths& paths = args.recordings.paths;
   const config::Config config = args.config.load();
   if (args.cpu) {
@@ -49,7 +49,7 @@ int run(const Arguments& args) {
 
 Command add_info(CLI::App& root) {
   CLI::App* app = root.add_subcommand("info", "Say what is in recordings, and how good they are");
-  const auto args = std::make_shared<Arguments>();
+  const auto args = std::make_shared<InfoArguments>();
   args->recordings.add_to(*app, false);
   args->config.add_to(*app);
   app->add_flag("--cpu", args->cpu,
@@ -60,7 +60,7 @@ Command add_info(CLI::App& root) {
       "  convexcut info --lidar lidar.pcap\n"
       "  convexcut info --imu imu.bin --json\n"
       "  convexcut info --cpu");
-  return {app, [args] { return run(*args); }};
+  return {app, [args] { return run_info(*args); }};
 }
 
 }  // namespace convexcut::replay

@@ -10,14 +10,14 @@
 namespace convexcut::replay {
 namespace {
 
-struct Arguments {
+struct PictureArguments {
   std::filesystem::path scan;
   std::filesystem::path out;
   std::string title;
   double slice_deg = 0.0;
 };
 
-int run(const Arguments& args) {
+int run_picture(const PictureArguments& args) {
   const PcdCloud cloud = read_pcd(args.scan);
   PictureInput input;
   input.cloud = cloud.view();
@@ -34,7 +34,7 @@ int run(const Arguments& args) {
 Command add_picture(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "picture", "Draw a labelled scan: from above, and one vertical slice with its hull");
-  const auto args = std::make_shared<Arguments>();
+  const auto args = std::make_shared<PictureArguments>();
   app->add_option("scan", args->scan, "A scan written by convexcut process, or any PCD file")
       ->type_name("FILE.pcd")
       ->required();
@@ -45,7 +45,7 @@ Command add_picture(CLI::App& root) {
       ->type_name("DEGREES");
   app->add_option("--title", args->title, "Title (default: the file's name)")->type_name("TEXT");
   app->footer("Example:\n  convexcut picture scans/scan_000003.pcd --out scan.png --slice-deg 45");
-  return {app, [args] { return run(*args); }};
+  return {app, [args] { return run_picture(*args); }};
 }
 
 }  // namespace convexcut::replay

@@ -8,7 +8,7 @@
 namespace convexcut::replay {
 namespace {
 
-struct Arguments {
+struct ProcessArguments {
   command_line::RecordingArguments recordings;
   command_line::ConfigArguments config;
   std::filesystem::path out;
@@ -17,7 +17,7 @@ struct Arguments {
   bool json = false;
 };
 
-int run(const Arguments& args) {
+int run_process(const ProcessArguments& args) {
   ProcessOptions options;
   options.recordings = args.recordings.paths;
   options.config = args.config.load();
@@ -34,7 +34,7 @@ int run(const Arguments& args) {
 Command add_process(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "process", "Separate a whole recording into structure and the rest, one file a scan");
-  const auto args = std::make_shared<Arguments>();
+  const auto args = std::make_shared<ProcessArguments>();
   args->recordings.add_to(*app, true);
   args->recordings.add_poses_to(*app);
   args->config.add_to(*app);
@@ -54,7 +54,7 @@ Command add_process(CLI::App& root) {
       "  convexcut process --lidar lidar.pcap --imu imu.pcap --out scans\n"
       "  convexcut process --lidar lidar.pcap --set mount.orientation=fixed --out scans --format "
       "ply");
-  return {app, [args] { return run(*args); }};
+  return {app, [args] { return run_process(*args); }};
 }
 
 }  // namespace convexcut::replay

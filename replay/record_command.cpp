@@ -9,14 +9,14 @@
 namespace convexcut::replay {
 namespace {
 
-struct Arguments {
+struct RecordArguments {
   command_line::ConfigArguments config;
   std::string out;
   std::optional<double> seconds;
   bool json = false;
 };
 
-int run(const Arguments& args) {
+int run_record(const RecordArguments& args) {
   RecordOptions options;
   options.config = args.config.load();
   if (!args.out.empty()) options.config.record.directory = args.out;
@@ -36,7 +36,7 @@ int run(const Arguments& args) {
 Command add_record(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "record", "Record live sensors to captures, without computing anything from them");
-  const auto args = std::make_shared<Arguments>();
+  const auto args = std::make_shared<RecordArguments>();
   args->config.add_to(*app);
   app->add_option("--out", args->out,
                   "Directory for lidar_000.pcap, imu_000.pcap … (default record.directory)")
@@ -50,7 +50,7 @@ Command add_record(CLI::App& root) {
       "Examples:\n"
       "  convexcut record --out drive --set imu.device=/dev/ttyUSB0\n"
       "  convexcut process --lidar drive/lidar_000.pcap --imu drive/imu_000.pcap --out scans");
-  return {app, [args] { return run(*args); }};
+  return {app, [args] { return run_record(*args); }};
 }
 
 }  // namespace convexcut::replay

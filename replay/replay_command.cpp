@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLongest = 1e6;  // s; far from where nanoseconds end
 
-struct Arguments {
+struct ReplayArguments {
   command_line::RecordingArguments recordings;
   command_line::ConfigArguments config;
   ReplayOptions options;
@@ -55,7 +55,7 @@ void add_destinations(CLI::App& app, ReplayOptions& options) {
       ->type_name("INTERFACE");
 }
 
-void add_playing(CLI::App& app, Arguments& args) {
+void add_playing(CLI::App& app, ReplayArguments& args) {
   PlayerOptions& player = args.options.player;
   app.add_option("--rate", args.rate, "Recorded seconds per second, or max (default 1)")
       ->type_name("X|max");
@@ -103,7 +103,7 @@ void add_faults(CLI::App& app, ReplayOptions& options) {
   faulty->add_option("--seed", options.seed, "Of what goes wrong when (default 1)")->type_name("N");
 }
 
-int run(Arguments& args) {
+int run_replay(ReplayArguments& args) {
   ReplayOptions& options = args.options;
   options.recordings = args.recordings.paths;
   options.config = args.config.load();
@@ -127,7 +127,7 @@ int run(Arguments& args) {
 Command add_replay(CLI::App& root) {
   CLI::App* app =
       root.add_subcommand("replay", "Feed a running daemon with a recording as the sensors would");
-  const auto args = std::make_shared<Arguments>();
+  const auto args = std::make_shared<ReplayArguments>();
   args->options.player.faults.stall_every = std::chrono::seconds{10};
   args->recordings.add_to(*app, false);
   args->config.add_to(*app);
@@ -141,7 +141,7 @@ Command add_replay(CLI::App& root) {
       "Example:\n"
       "  convexcut replay --lidar lidar.pcap --imu imu.pcap --imu-link /tmp/imu --loop &\n"
       "  convexcutd --set imu.device=/tmp/imu");
-  return {app, [args] { return run(*args); }};
+  return {app, [args] { return run_replay(*args); }};
 }
 
 }  // namespace convexcut::replay

@@ -28,7 +28,7 @@ struct Way {
   std::optional<PathEnd> end;
 };
 
-struct Arguments {
+struct SimulateArguments {
   SimulateOptions options;
   double seconds = 10.0;
   Way way;
@@ -95,7 +95,7 @@ std::string scene_names() {
   return names;
 }
 
-void add_run_options(CLI::App& app, Arguments& a) {
+void add_run_options(CLI::App& app, SimulateArguments& a) {
   SimulateOptions& o = a.options;
   app.add_option("--scene", o.scene, "A shipped scene (" + scene_names() + ") or a scene file")
       ->type_name("NAME|FILE")
@@ -115,7 +115,7 @@ void add_run_options(CLI::App& app, Arguments& a) {
   app.add_flag("--json", o.json, "Print the summary as one JSON object");
 }
 
-void add_rig_options(CLI::App& app, Arguments& a) {
+void add_rig_options(CLI::App& app, SimulateArguments& a) {
   simulation::RigOptions& rig = a.options.simulation.rig;
   const std::string group = "Rig";
   const auto degrees = [&](const char* name, Degrees& value, double most, const char* what) {
@@ -157,7 +157,7 @@ void add_rig_options(CLI::App& app, Arguments& a) {
       ->group(group);
 }
 
-void add_lidar_options(CLI::App& app, Arguments& a) {
+void add_lidar_options(CLI::App& app, SimulateArguments& a) {
   simulation::LidarOptions& lidar = a.options.simulation.lidar;
   simulation::LidarLinkOptions& link = a.options.simulation.link;
   const std::string group = "Lidar";
@@ -184,7 +184,7 @@ void add_lidar_options(CLI::App& app, Arguments& a) {
       ->group(group);
 }
 
-void add_imu_options(CLI::App& app, Arguments& a) {
+void add_imu_options(CLI::App& app, SimulateArguments& a) {
   simulation::SimulationOptions& o = a.options.simulation;
   const std::string group = "IMU";
   app.add_option("--gravity-error-deg", o.imu_errors.gravity.value,
@@ -208,7 +208,7 @@ void scale(simulation::ImuNoise& noise, double by) {
   noise.acceleration_m_s2 *= by;
 }
 
-int run(Arguments a) {
+int run_simulate(SimulateArguments a) {
   simulation::SimulationOptions& o = a.options.simulation;
   o.length = std::chrono::round<Duration>(std::chrono::duration<double>(a.seconds));
   o.rig.sway_m = 0.005 * o.rig.sway.value;
@@ -236,7 +236,7 @@ int run(Arguments a) {
 Command add_simulate(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "simulate", "Write what a lidar and an IMU would record in a scene, and the truth about it");
-  const auto args = std::make_shared<Arguments>();
+  const auto args = std::make_shared<SimulateArguments>();
   add_run_options(*app, *args);
   add_rig_options(*app, *args);
   add_lidar_options(*app, *args);
@@ -247,7 +247,7 @@ Command add_simulate(CLI::App& root) {
       "  convexcut simulate --scene glass-offices --travel --sway 2 --seconds 60 --out drive\n"
       "  convexcut process --config office/convexcut.toml --lidar office/lidar.pcap --imu "
       "office/imu.pcap --out scans");
-  return {app, [args] { return run(*args); }};
+  return {app, [args] { return run_simulate(*args); }};
 }
 
 }  // namespace convexcut::replay

@@ -9,14 +9,14 @@
 namespace convexcut::replay {
 namespace {
 
-struct Arguments {
+struct WatchArguments {
   command_line::ConfigArguments config;
   std::optional<std::uint32_t> domain;
   std::optional<std::int64_t> seconds;
   bool json = false;
 };
 
-int run(const Arguments& args) {
+int run_watch(const WatchArguments& args) {
   WatchOptions options;
   options.dds = args.config.load().dds;
   if (args.domain) options.dds.domain = *args.domain;
@@ -31,7 +31,7 @@ Command add_watch(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "watch",
       "Listen to a daemon's topics: rate, points, structure, latency and losses every second");
-  const auto args = std::make_shared<Arguments>();
+  const auto args = std::make_shared<WatchArguments>();
   args->config.add_to(*app);
   app->add_option("--domain", args->domain, "DDS domain, as dds.domain (default 0)")
       ->check(CLI::Range(0U, 232U))
@@ -44,7 +44,7 @@ Command add_watch(CLI::App& root) {
       "Examples:\n"
       "  convexcut watch\n"
       "  convexcut watch --domain 7 --seconds 10 --json");
-  return {app, [args] { return run(*args); }};
+  return {app, [args] { return run_watch(*args); }};
 }
 
 }  // namespace convexcut::replay

@@ -76,7 +76,7 @@ void PlaneExtractor::drop_chance_planes() {
 
 void PlaneExtractor::refit() {
   if (points_of_region_.size() < regions_.size()) points_of_region_.resize(regions_.size());
-  for (PointColumns& points : points_of_region_) points.clear();
+  for (PlanePoints& points : points_of_region_) points.clear();
   for (std::size_t i = 0; i < tree_.size(); ++i) {
     if (region_of_point_[i] == kNoPatch) continue;
     points_of_region_[region_of_point_[i]].add(tree_.x()[i], tree_.y()[i], tree_.z()[i]);

@@ -48,7 +48,7 @@ class PlaneExtractor {
   Workspace<std::uint32_t> region_of_point_;  // in the order of the tree
   std::vector<PlaneMerger::Region> regions_;
   std::vector<Support> support_;
-  std::vector<PointColumns> points_of_region_;
+  std::vector<PlanePoints> points_of_region_;
   std::vector<std::uint32_t> order_, patch_of_region_;
   std::vector<PlanePatch> patches_;
   std::vector<std::uint32_t> patch_of_point_;

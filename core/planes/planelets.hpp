@@ -42,7 +42,7 @@ class PlaneletFinder {
   RobustFit found_;
   std::vector<Planelet>* planelets_ = nullptr;
   Workspace<std::uint32_t>* planelet_of_point_ = nullptr;
-  PointColumns free_;  // of the cell at hand: points that are on no planelet yet
+  PlanePoints free_;  // of the cell at hand: points that are on no planelet yet
   std::vector<std::uint32_t> free_points_;
 };
 

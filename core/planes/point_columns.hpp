@@ -10,7 +10,7 @@
 namespace convexcut {
 
 // Points as a structure of arrays that is filled again and again.
-struct PointColumns {
+struct PlanePoints {
   std::vector<float> x, y, z;
 
   [[nodiscard]] std::size_t size() const noexcept { return x.size(); }

@@ -28,7 +28,7 @@ class Sequence {
   std::uint32_t state_ = 1;
 };
 
-[[nodiscard]] Vec3 point(const PointColumns& points, std::size_t i) {
+[[nodiscard]] Vec3 point(const PlanePoints& points, std::size_t i) {
   return {static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
           static_cast<double>(points.z[i])};
 }
@@ -41,7 +41,7 @@ RobustPlaneFitter::RobustPlaneFitter(const PlaneOptions& options)
       most_thickness_(1.5 * options.noise_m) {}
 
 // The mean of min(d², reach²) in units of reach²: 0 … 1.
-double RobustPlaneFitter::truncated_loss(const PointColumns& points,
+double RobustPlaneFitter::truncated_loss(const PlanePoints& points,
                                          const Plane& plane) const noexcept {
   constexpr std::size_t kLanes = 8;  // summed apart, so that the loop can be vectorised
   const FloatPlane p(plane);
@@ -64,7 +64,7 @@ double RobustPlaneFitter::truncated_loss(const PointColumns& points,
   return sum / (static_cast<double>(most) * static_cast<double>(points.size()));
 }
 
-Moments RobustPlaneFitter::inliers_of(const PointColumns& points, const Plane& plane) {
+Moments RobustPlaneFitter::inliers_of(const PlanePoints& points, const Plane& plane) {
   const FloatPlane p(plane);
   near_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -74,7 +74,7 @@ Moments RobustPlaneFitter::inliers_of(const PointColumns& points, const Plane& p
   return near_.moments();
 }
 
-Plane RobustPlaneFitter::concentrate(const PointColumns& points, Plane plane, int rounds) {
+Plane RobustPlaneFitter::concentrate(const PlanePoints& points, Plane plane, int rounds) {
   double loss = truncated_loss(points, plane);
   for (int round = 0; round < rounds; ++round) {
     const Moments near = inliers_of(points, plane);
@@ -88,7 +88,7 @@ Plane RobustPlaneFitter::concentrate(const PointColumns& points, Plane plane, in
   return plane;
 }
 
-Plane RobustPlaneFitter::best_start(const PointColumns& sample) const {
+Plane RobustPlaneFitter::best_start(const PlanePoints& sample) const {
   Plane best = sample.moments().fit().plane;
   double least = truncated_loss(sample, best);
   if (least <= kGoodLoss) return best;
@@ -111,9 +111,9 @@ Plane RobustPlaneFitter::best_start(const PointColumns& sample) const {
   return best;
 }
 
-bool RobustPlaneFitter::fit(const PointColumns& points, RobustFit& out) {
+bool RobustPlaneFitter::fit(const PlanePoints& points, RobustFit& out) {
   if (points.size() < options_.least_cell_points) return false;
-  const PointColumns* sample = &points;
+  const PlanePoints* sample = &points;
   if (points.size() > kSample) {
     sample_.clear();
     for (std::size_t i = 0; i < kSample; ++i) {

@@ -31,22 +31,22 @@ class RobustPlaneFitter {
   // False when no plane holds enough of the points (PlaneOptions: least_cell_points,
   // least_cell_share), when these are no flat sheet (thicker than 1.5 σ of the noise), or no sheet
   // but a line (as of one beam of the lidar). The same points in the same order give the same fit.
-  [[nodiscard]] bool fit(const PointColumns& points, RobustFit& out);
+  [[nodiscard]] bool fit(const PlanePoints& points, RobustFit& out);
 
   // 1.5 σ of the noise: an evenly filled slab within reach is thicker.
   [[nodiscard]] double most_thickness_m() const noexcept { return most_thickness_; }
 
  private:
-  [[nodiscard]] Plane best_start(const PointColumns& sample) const;
-  [[nodiscard]] Plane concentrate(const PointColumns& points, Plane plane, int rounds);
-  [[nodiscard]] double truncated_loss(const PointColumns& points,
+  [[nodiscard]] Plane best_start(const PlanePoints& sample) const;
+  [[nodiscard]] Plane concentrate(const PlanePoints& points, Plane plane, int rounds);
+  [[nodiscard]] double truncated_loss(const PlanePoints& points,
                                       const Plane& plane) const noexcept;
-  [[nodiscard]] Moments inliers_of(const PointColumns& points, const Plane& plane);
+  [[nodiscard]] Moments inliers_of(const PlanePoints& points, const Plane& plane);
 
   PlaneOptions options_;
   float reach_;
   double most_thickness_;
-  PointColumns sample_, near_;
+  PlanePoints sample_, near_;
 };
 
 }  // namespace convexcut

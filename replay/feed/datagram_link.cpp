@@ -14,7 +14,7 @@
 namespace convexcut::replay {
 namespace {
 
-constexpr std::size_t kLongestGarbage = 1500;
+constexpr std::size_t kLongestDatagramGarbage = 1500;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void DatagramLink::send(Time now, std::uint16_t port, wire::Bytes payload) {
   release(now);
   if (dice_.chance(faults_.garbage)) {
     ++counts_.garbage;
-    enqueue(now, {now, port, dice_.noise(kLongestGarbage), true});
+    enqueue(now, {now, port, dice_.noise(kLongestDatagramGarbage), true});
   }
 }
 

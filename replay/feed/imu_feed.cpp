@@ -12,7 +12,7 @@
 namespace convexcut::replay {
 namespace {
 
-constexpr std::size_t kLongestGarbage = 100;
+constexpr std::size_t kLongestNoise = 100;
 constexpr std::int64_t kTicksPerSecond = xsens::kSampleTicksPerSecond;
 constexpr Duration kTick = std::chrono::microseconds{100};
 // The device's own day, after which its sample time starts over.
@@ -74,7 +74,7 @@ void ImuFeed::send(const PlayedTime& time) {
   }
   if (dice_.chance(faults_.garbage)) {
     ++garbage_;
-    device_.disturb(dice_.noise(kLongestGarbage));
+    device_.disturb(dice_.noise(kLongestNoise));
   }
 }
 
