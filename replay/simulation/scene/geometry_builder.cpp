@@ -19,16 +19,16 @@ constexpr std::size_t kBins = 16;
 // Below this depth halves are made, whatever they cost: the depth stays under that of the stack.
 constexpr int kDeepestBinned = 32;
 
-struct Item {
+struct BoundedShape {
   Bounds bounds;
   Vec3 centre;
   std::uint32_t primitive;
 };
-using Items = std::span<Item>;
+using Items = std::span<BoundedShape>;
 
 Bounds bounds_of_items(Items items) {
   Bounds bounds;
-  for (const Item& item : items) bounds.add(item.bounds);
+  for (const BoundedShape& item : items) bounds.add(item.bounds);
   return bounds;
 }
 
@@ -52,7 +52,7 @@ Split best_split(Items items, const Bounds& centres, Eigen::Index axis) {
   const double width = (centres.high[axis] - low) / kBins;
   if (width <= 0.0) return {};
   std::array<Bin, kBins> bins;
-  for (const Item& item : items) {
+  for (const BoundedShape& item : items) {
     const double place = std::clamp((item.centre[axis] - low) / width, 0.0, kBins - 0.5);
     Bin& bin = bins[static_cast<std::size_t>(place)];
     bin.bounds.add(item.bounds);
@@ -79,14 +79,14 @@ Split best_split(Items items, const Bounds& centres, Eigen::Index axis) {
 // Where the second part begins; both have items. At least two items.
 std::size_t split(Items items, int depth) {
   Bounds centres;
-  for (const Item& item : items) centres.add(item.centre);
+  for (const BoundedShape& item : items) centres.add(item.centre);
   Split best;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const Split found = best_split(items, centres, axis);
     if (found.cost < best.cost) best = found;
   }
   if (best.cost < kNoHit && depth < kDeepestBinned) {
-    const auto above = std::partition(items.begin(), items.end(), [&](const Item& item) {
+    const auto above = std::partition(items.begin(), items.end(), [&](const BoundedShape& item) {
       return item.centre[best.axis] < best.position;
     });
     const auto first = static_cast<std::size_t>(above - items.begin());
@@ -95,9 +95,10 @@ std::size_t split(Items items, int depth) {
   Eigen::Index longest = 0;
   centres.size().maxCoeff(&longest);
   const auto middle = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
-  std::nth_element(items.begin(), middle, items.end(), [&](const Item& a, const Item& b) {
-    return a.centre[longest] < b.centre[longest];
-  });
+  std::nth_element(items.begin(), middle, items.end(),
+                   [&](const BoundedShape& a, const BoundedShape& b) {
+                     return a.centre[longest] < b.centre[longest];
+                   });
   return items.size() / 2;
 }
 
@@ -133,7 +134,7 @@ class Geometry::Builder {
   }
 
  private:
-  std::uint32_t add_primitive(const Item& item) {
+  std::uint32_t add_primitive(const BoundedShape& item) {
     geometry_.primitives_.push_back(std::move(source_[item.primitive]));
     return static_cast<std::uint32_t>(geometry_.primitives_.size() - 1);
   }
@@ -154,7 +155,7 @@ class Geometry::Builder {
   }
 
   std::vector<Primitive> source_;
-  std::vector<Item> items_;
+  std::vector<BoundedShape> items_;
   Geometry& geometry_;
 };
 
