@@ -39,8 +39,7 @@ class RobustPlaneFitter {
  private:
   [[nodiscard]] Plane best_start(const PlanePoints& sample) const;
   [[nodiscard]] Plane concentrate(const PlanePoints& points, Plane plane, int rounds);
-  [[nodiscard]] double truncated_loss(const PlanePoints& points,
-                                      const Plane& plane) const noexcept;
+  [[nodiscard]] double truncated_loss(const PlanePoints& points, const Plane& plane) const noexcept;
   [[nodiscard]] Moments inliers_of(const PlanePoints& points, const Plane& plane);
 
   PlaneOptions options_;
