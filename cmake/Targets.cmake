@@ -50,7 +50,8 @@ function(convexcut_test name)
   endif()
   if(CONVEXCUT_CASES OR "programs" IN_LIST ARG_LABELS)
     gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                         PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}")
+                         PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}"
+                         ENVIRONMENT CONVEXCUT_TEST_PERCENT=${CONVEXCUT_TEST_PERCENT})
   else()
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}"
