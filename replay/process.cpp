@@ -11,6 +11,7 @@
 
 #include <sys/resource.h>
 
+#include "daemon/pipeline/lidar_input.hpp"
 #include "daemon/pipeline/pipeline.hpp"
 #include "replay/progress_bar.hpp"
 #include "replay/scan_output.hpp"
@@ -18,18 +19,6 @@
 
 namespace convexcut::replay {
 namespace {
-
-// Feeds the pipeline directly: no ring, no thread, so that order and result are always the same.
-class LidarInput final : public Sink<ReturnBatch> {
- public:
-  explicit LidarInput(daemon::Pipeline& pipeline) : pipeline_(pipeline) {}
-  [[nodiscard]] ReturnBatch* claim() noexcept override { return &batch_; }
-  void commit() noexcept override { pipeline_.on_lidar(batch_); }
-
- private:
-  daemon::Pipeline& pipeline_;
-  ReturnBatch batch_;
-};
 
 // When the samples of one kind came.
 class TimeSpan {
@@ -193,7 +182,7 @@ class Run {
   const ProcessOptions& options_;
   unsigned threads_;
   daemon::Pipeline pipeline_;
-  LidarInput lidar_input_;
+  daemon::LidarInput lidar_input_;
   ImuInput imu_input_;
   EncoderInput encoder_input_;
   daemon::Recordings recordings_;

@@ -12,6 +12,7 @@
 
 #include "core/scan/levelling.hpp"
 #include "core/sink.hpp"
+#include "daemon/pipeline/lidar_input.hpp"
 #include "daemon/pipeline/pipeline.hpp"
 #include "daemon/sources/driver_options.hpp"
 #include "drivers/velodyne/lidar_driver.hpp"
@@ -22,17 +23,6 @@
 
 namespace convexcut::simulation {
 namespace {
-
-class LidarInput final : public Sink<ReturnBatch> {
- public:
-  explicit LidarInput(daemon::Pipeline& pipeline) : pipeline_(pipeline) {}
-  [[nodiscard]] ReturnBatch* claim() noexcept override { return &batch_; }
-  void commit() noexcept override { pipeline_.on_lidar(batch_); }
-
- private:
-  daemon::Pipeline& pipeline_;
-  ReturnBatch batch_;
-};
 
 class ImuInput final : public Sink<ImuSample> {
  public:
@@ -238,7 +228,7 @@ class LabelledScans::Run {
   std::size_t max_points_;
   LidarLink counter_;  // asked for the counter only
   daemon::Pipeline pipeline_;
-  LidarInput lidar_input_;
+  daemon::LidarInput lidar_input_;
   ImuInput imu_input_;
   velodyne::LidarDriver lidar_driver_;
   xsens::ImuDriver imu_driver_;
