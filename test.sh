@@ -60,7 +60,7 @@ ctest_preset() {
   if [ "$bad" != 0 ]; then
     failures+=("tests of $preset: $log")
     grep -E '\*\*\*(Failed|Timeout|Exception)|Subprocess aborted|^no test ran' "$log" | head -n 20 | sed 's/^/        /'
-    grep -E ': Failure$|^  Actual:|runtime error:|ERROR: .*Sanitizer' "$log" | cut -c 1-300 | head -n 20 | sed 's/^/        /'
+    grep -E -A 5 ': Failure$|runtime error:|ERROR: .*Sanitizer' "$log" | cut -c 1-300 | head -n 40 | sed 's/^/        /'
   fi
 }
 

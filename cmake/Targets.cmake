@@ -1,14 +1,19 @@
 # convexcut_library(NAME SOURCES a.cpp b.cpp LIBS x y): a static library of this project. Headers are
 # included by their path from the root: #include "core/clock/hour_clock.hpp". Reading headers is most of what a file
 # costs to compile, so with CONVEXCUT_UNITY it is done once for six files; APART: not here, as files share local names or
-# are compiled once for each instruction set.
+# are compiled once for each instruction set. COMMANDS: parses command lines.
 function(convexcut_library name)
-  cmake_parse_arguments(ARG "APART" "" "SOURCES;LIBS;PRIVATE_LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "APART;COMMANDS" "" "SOURCES;LIBS;PRIVATE_LIBS" ${ARGN})
   if(ARG_SOURCES)
     add_library(${name} STATIC ${ARG_SOURCES})
     convexcut_compiler_options(${name} PRIVATE)
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${ARG_LIBS} PRIVATE ${ARG_PRIVATE_LIBS})
+    if(ARG_COMMANDS)
+      convexcut_precompile(${name} commands)
+    else()
+      convexcut_precompile(${name} library)
+    endif()
     if(CONVEXCUT_UNITY AND NOT ARG_APART)
       set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
       # The compiler takes a file that is included for a header, whose local types should not be members.
@@ -29,15 +34,24 @@ function(convexcut_program name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS})
 endfunction()
 
+# What is tested is optimised as ever; the tests themselves would spend half of a build on it.
+function(convexcut_test_options name)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
+endfunction()
+
 # convexcut_test(NAME SOURCES ... LIBS ... LABELS ...): one GoogleTest program. Each TEST is a ctest of its own, or
 # without CONVEXCUT_CASES the program is one; labels: `threads`: worth running under ThreadSanitizer; `programs`: runs
-# the programs in real time, always case by case so that they wait beside each other.
+# the programs in real time, always case by case so that they wait beside each other. OPTIMISED: in sanitized builds too.
 function(convexcut_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMISED" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   convexcut_compiler_options(${name} PRIVATE)
-  # What is tested is optimised as ever; the tests themselves would spend half of a build on it.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
+  if(ARG_OPTIMISED)
+    target_compile_options(${name} PRIVATE -O1)
+  else()
+    convexcut_test_options(${name})
+    convexcut_precompile(${name} test)
+  endif()
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   # SYSTEM silences nothing of ours: GoogleTest's own macros are what -Wconversion would flag.
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} convexcut_test_support GTest::gmock GTest::gtest_main)

@@ -108,7 +108,7 @@ Found value_of_override(const Key& key, std::string_view text) {
 // What a file can hold: valid UTF-8.
 bool is_toml_text(std::string_view text) {
   try {
-    static_cast<void>(toml::parse("value = " + quoted(text)));
+    static_cast<void>(toml::parse("value = " + toml_string(text)));
     return true;
   } catch (const toml::parse_error&) {
     return false;

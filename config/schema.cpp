@@ -81,7 +81,7 @@ std::optional<Value> accept(const Domain& domain, Value value) {
 std::string to_toml(const Value& value, const Domain& domain) {
   if (const auto* boolean = std::get_if<bool>(&value)) return *boolean ? "true" : "false";
   if (const auto* number = std::get_if<double>(&value)) return toml_number(*number);
-  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return toml_string(*text);
   const auto* range = std::get_if<Integer>(&domain);
   return integer_text(std::get<std::int64_t>(value),
                       range != nullptr ? range->notation : Integer::Notation::decimal);

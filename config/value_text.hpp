@@ -31,6 +31,6 @@ template <class... Parts>
                                     std::size_t limit = std::numeric_limits<std::size_t>::max());
 
 // A TOML basic string.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string toml_string(std::string_view text);
 
 }  // namespace convexcut::config

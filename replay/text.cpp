@@ -8,7 +8,7 @@
 namespace convexcut::replay {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string json_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
@@ -61,12 +61,12 @@ std::string format(const char* pattern, ...) {
 
 JsonObject& JsonObject::add_raw(std::string_view key, const std::string& value) {
   if (!members_.empty()) members_ += ", ";
-  members_ += quoted(key) + ": " + value;
+  members_ += json_string(key) + ": " + value;
   return *this;
 }
 
 JsonObject& JsonObject::add(std::string_view key, std::string_view text) {
-  return add_raw(key, quoted(text));
+  return add_raw(key, json_string(text));
 }
 JsonObject& JsonObject::add(std::string_view key, std::uint64_t number) {
   return add_raw(key, std::to_string(number));

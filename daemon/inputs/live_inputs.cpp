@@ -47,6 +47,8 @@ std::vector<InputThread> LiveInputs::start() {
                          while (!stop_.load(std::memory_order_relaxed)) {
                            source.receive(kLongestWait);
                          }
+                         // What the kernel had received by then counts as received.
+                         source.receive(Duration{0});
                        }});
   }
   if (!has_imu) imu_ended_.store(true, std::memory_order_release);  // see Inputs
