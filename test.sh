@@ -4,7 +4,7 @@
 #   ./test.sh --quick    release build and its tests only
 #   ./test.sh STEP …     chosen steps: format release asan tsan aarch64 fuzz bench soak vm,
 #                        and tidy, analyze
-# FUZZ_SECONDS (10) is the time of each fuzz target, a sixth of that of fuzz_convex_cut.
+# FUZZ_SECONDS (20) is the time of each fuzz target, a third of that of fuzz_convex_cut.
 set -uo pipefail
 cd "$(dirname "$0")"
 
@@ -125,7 +125,7 @@ for step in "${steps[@]}"; do
       if check build-fuzz build_preset fuzz --target fuzz_targets; then
         for target in build/fuzz/fuzz/fuzz_*; do
           echo "$target"
-        done | xargs -P 2 -n 1 scripts/run-fuzzer.sh "${FUZZ_SECONDS:-10}"
+        done | xargs -P 2 -n 1 scripts/run-fuzzer.sh "${FUZZ_SECONDS:-20}"
         for target in build/fuzz/fuzz/fuzz_*; do
           check "$(basename "$target")" scripts/run-fuzzer.sh --result "$target"
         done
