@@ -18,6 +18,10 @@ WorkerOptions worker_options(const config::Worker& settings) {
           std::chrono::milliseconds{settings.latency_ms}, settings.reduce_effort};
 }
 
+[[nodiscard]] bool takes_dual_returns(const PipelineOptions& options) {
+  return options.cut.echoes == CutOptions::Echoes::both;
+}
+
 // In the daemon a scan waits for its last orientations no longer than the latency allows: three
 // fifths of it remain for levelling, cutting and writing.
 PipelineOptions live_pipeline_options(const config::Config& config) {
@@ -26,8 +30,7 @@ PipelineOptions live_pipeline_options(const config::Config& config) {
       std::min(options.orientation_wait,
                Duration{std::chrono::milliseconds{config.worker.latency_ms}} * 2 / 5);
   // Memory is locked: what only dual returns need is not taken without them.
-  if (options.cut.echoes != CutOptions::Echoes::both &&
-      options.cut.mode == CutOptions::Mode::revolution) {
+  if (!takes_dual_returns(options) && options.cut.mode == CutOptions::Mode::revolution) {
     options.max_returns_per_scan = kMostSingleReturnsPerScan;
   }
   return options;
@@ -65,6 +68,7 @@ constexpr auto kReportEvery = std::chrono::seconds{1};
 Daemon::Daemon(const DaemonOptions& options)
     : options_(options),
       realtime_(realtime_settings(options)),
+      rings_(takes_dual_returns(pipeline_options(options.config))),
       inputs_(make_inputs(options, rings_, stop_)),
       worker_(realtime_.as(ThreadRole::worker,
                            [&] {

@@ -71,7 +71,7 @@ daemon=$! && started+=("$daemon")
 
 sleep "$seconds"
 kill -0 "$daemon" 2>/dev/null || { echo "soak.sh: the daemon ended: $(tail -n 3 "$log")" >&2; exit 1; }
-rss_kb=$(awk '/^VmRSS/ {print $2}' "/proc/$daemon/status")
+rss_kb=$(awk '/^VmHWM/ {print $2}' "/proc/$daemon/status")
 cpu_ticks=$(awk '{print $14 + $15}' "/proc/$daemon/stat")
 stop_began=$(date +%s%N)
 kill -TERM "$daemon"
@@ -102,7 +102,7 @@ major_faults=$(of_threads major_faults)
 jitter=$(figure timing jitter_p999_us)
 expected=$(python3 -c "print(round($run_ms / 1000 * ${ROTOR_HZ:-10}))")
 echo "packets_sent=$sent packets_lost=$packets_lost imu_lost=$imu_lost results=$results late=$late" \
-  "jitter_p999_us=$jitter rss_mb=$((rss_kb / 1024)) cpu_pct=$(python3 -c "print(round($cpu_ticks * 1e5 / $(getconf CLK_TCK) / $run_ms, 1))")" \
+  "jitter_p999_us=$jitter rss_mb=$((rss_kb * 1024 / 1000000)) cpu_pct=$(python3 -c "print(round($cpu_ticks * 1e5 / $(getconf CLK_TCK) / $run_ms, 1))")" \
   "allocations=$allocations major_faults=$major_faults"
 
 echo "packets were sent up to $sensors_late_ms ms late, the stop took $stop_ms ms: $(grep '^info timing' "$log" | cut -d' ' -f3-)" >&2
