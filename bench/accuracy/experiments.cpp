@@ -125,6 +125,12 @@ constexpr std::string_view kMirrorScene = "bench/accuracy/mirror.toml";
   return experiment;
 }
 
+[[nodiscard]] bool is_asked_for(const ExperimentOptions& o, const Run& run) {
+  return (o.only.empty() || run.experiment == o.only) &&
+         (o.scene.empty() || run.scene == o.scene) &&
+         (o.tilt_deg < 0.0 || run.tilt_deg == o.tilt_deg);
+}
+
 }  // namespace
 
 std::vector<Experiment> experiments(const ExperimentOptions& o) {
@@ -143,8 +149,12 @@ std::vector<Experiment> experiments(const ExperimentOptions& o) {
       stationary(o, "office", 760),
       stationary(o, "cafe", 356),
       moving(o)};
-  if (o.only.empty()) return all;
-  std::erase_if(all, [&](const Experiment& e) { return e.runs.front().experiment != o.only; });
+  for (Experiment& experiment : all) {
+    std::erase_if(experiment.runs, [&](const Run& run) { return !is_asked_for(o, run); });
+    std::erase_if(experiment.methods, [&](const NamedMethod& method) {
+      return !o.method.empty() && method.name != o.method;
+    });
+  }
   return all;
 }
 

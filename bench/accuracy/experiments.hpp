@@ -13,7 +13,9 @@ namespace convexcut::bench {
 struct ExperimentOptions {
   bool quick = false;
   std::uint64_t first_seed = 101;
-  std::string only;  // the name of one experiment; empty: all
+  std::string only;           // the name of one experiment; empty: all
+  std::string scene, method;  // only these; empty: all
+  double tilt_deg = -1.0;     // only this; negative: all
 };
 
 // Runs that are compared with each other, and what is tried on them.

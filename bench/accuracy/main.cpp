@@ -37,7 +37,14 @@ void print(const Run& run, const Outcome& o, bool first) {
               static_cast<unsigned long long>(c.objects_kept),
               static_cast<unsigned long long>(c.structure_kept),
               static_cast<unsigned long long>(c.structure_lost));
-  std::printf("\"unjudged\": %llu, \"unjudged_kept\": %llu, \"dynamic\": %.4f, \"ms\": %.3f}",
+  std::printf("\"errors\": {");
+  for (const SurfaceErrors& e : o.errors) {
+    std::printf("%s\"%s\": [%llu, %llu, %llu]", &e == o.errors.data() ? "" : ", ", e.name.c_str(),
+                static_cast<unsigned long long>(e.counts.points),
+                static_cast<unsigned long long>(e.counts.kept),
+                static_cast<unsigned long long>(e.counts.wrong));
+  }
+  std::printf("}, \"unjudged\": %llu, \"unjudged_kept\": %llu, \"dynamic\": %.4f, \"ms\": %.3f}",
               static_cast<unsigned long long>(o.pooled.unjudged),
               static_cast<unsigned long long>(o.pooled.unjudged_kept), o.dynamic_ratio.mean(),
               o.scans == 0 ? 0.0 : o.milliseconds / static_cast<double>(o.scans));
@@ -70,6 +77,9 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", options.quick, "one seed, few scans, no long recordings");
   app.add_option("--first-seed", options.first_seed, "of three; nothing was tuned on the default");
   app.add_option("--only", options.only, "one experiment by its name");
+  app.add_option("--scene", options.scene, "runs in this scene alone");
+  app.add_option("--tilt", options.tilt_deg, "runs with this tilt alone, degrees");
+  app.add_option("--method", options.method, "this method alone");
   CLI11_PARSE(app, argc, argv);
   try {
     convexcut::bench::run_all(convexcut::bench::experiments(options));

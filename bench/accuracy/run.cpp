@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/accuracy/run.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <memory>
 #include <optional>
@@ -55,6 +56,7 @@ struct Contestant {
   std::unique_ptr<Method> method;
   std::vector<Label> labels;
   std::vector<Label> merged;  // of the merged cloud
+  std::vector<evaluation::SurfaceCounts> by_surface;
   Outcome outcome;
 
   void label(const LabelledScan& scan, const Vec3& position) {
@@ -68,12 +70,26 @@ struct Contestant {
 
   void judge(const MergedCloud& cloud, bool settled) {
     const std::vector<SurfaceLabel>& truth = cloud.truth();
-    evaluation::add_surfaces(merged, truth, cloud.surface(), outcome.by_surface);
+    evaluation::add_surfaces(merged, truth, cloud.surface(), by_surface);
     const evaluation::PointCounts counts = evaluation::count_points(merged, truth);
     outcome.points.add(score_of(counts));
     if (settled) outcome.settled.add(score_of(counts));
     outcome.pooled += counts;
     outcome.dynamic_ratio.add(evaluation::dynamic_ratio(counts));
+  }
+
+  void take_errors(const simulation::Scene& scene) {
+    constexpr std::size_t kMost = 12;
+    for (std::size_t i = 0; i < by_surface.size(); ++i) {
+      if (by_surface[i].wrong > 0) {
+        outcome.errors.push_back({scene.surfaces()[i].name, by_surface[i]});
+      }
+    }
+    std::stable_sort(outcome.errors.begin(), outcome.errors.end(),
+                     [](const SurfaceErrors& a, const SurfaceErrors& b) {
+                       return a.counts.wrong > b.counts.wrong;
+                     });
+    outcome.errors.resize(std::min(outcome.errors.size(), kMost));
   }
 
   void judge_patches(PatchJudge& judge) {
@@ -119,7 +135,10 @@ std::vector<Outcome> outcomes_of(const Run& run, const std::vector<NamedMethod>&
     for (Contestant& c : contestants) c.merged.clear();
   }
   std::vector<Outcome> outcomes;
-  for (Contestant& c : contestants) outcomes.push_back(std::move(c.outcome));
+  for (Contestant& c : contestants) {
+    c.take_errors(scene);
+    outcomes.push_back(std::move(c.outcome));
+  }
   return outcomes;
 }
 

@@ -26,13 +26,18 @@ struct Run {
   std::size_t most_scans = 1'000'000;
 };
 
+struct SurfaceErrors {
+  std::string name;
+  evaluation::SurfaceCounts counts;
+};
+
 // What a method made of a run.
 struct Outcome {
   std::string method;
   evaluation::ScoreSummary points;
   evaluation::ScoreSummary settled;  // of scans from the second second on
   evaluation::PointCounts pooled;
-  std::vector<evaluation::SurfaceCounts> by_surface;
+  std::vector<SurfaceErrors> errors;  // of the surfaces with the most wrong points
   evaluation::ScoreSummary patches;
   evaluation::PatchCounts pooled_patches;
   evaluation::Summary dynamic_ratio;
