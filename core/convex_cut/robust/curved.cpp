@@ -16,7 +16,6 @@ constexpr float kAboveFloorM = 0.1F;
 constexpr float kBelowCeilingM = 0.05F;
 constexpr float kToCeilingM = 0.4F;
 constexpr float kLeastHeightM = 1.0F;
-constexpr float kWiderThanAPersonM = 1.5F;
 constexpr float kUpright = 0.5F;  // |z| of a wall's normal at most
 constexpr float kSmooth = 0.93F;  // cosine between neighbours
 constexpr float kStepM = 0.05F;
@@ -152,8 +151,7 @@ bool Curved::is_structure(const Model& model) const noexcept {
     high = high.cwiseMax(p);
   }
   if (high.z() - low.z() < kLeastHeightM) return false;
-  if (!std::isinf(model.ceiling_z)) return high.z() > model.ceiling_z - kToCeilingM;
-  return (high - low).head<2>().norm() > kWiderThanAPersonM;
+  return high.z() > model.ceiling_z - kToCeilingM;
 }
 
 void Curved::grow(const Model& model, const PlaneGrids& grids, const VoxelMap& map) noexcept {

@@ -13,8 +13,7 @@
 namespace convexcut::robust {
 
 // Structure that no plane explains: curved walls, round pillars. Surfels that are the farthest of
-// their azimuth, in connected groups that reach the ceiling, or where none is known are too wide
-// for a person; and what goes on smoothly from a wall.
+// their azimuth, in connected groups that reach the ceiling; and what goes on smoothly from a wall.
 class Curved {
  public:
   explicit Curved(std::size_t max_surfels);

@@ -11,8 +11,9 @@ namespace {
 constexpr std::size_t kMostCellsOfAPart = 1U << 18U;
 constexpr std::int32_t kReach = 2;  // cells: gaps within a part, and the ring around it
 constexpr std::size_t kLeastCells = 6;
+constexpr std::size_t kLeastCeilingCells = 20;  // less is the underside of a shelf
 constexpr std::size_t kMostParts = 4'096;
-constexpr float kLeastBeamM = 2.5F;
+constexpr float kLeastBeamM = 1.8F;
 constexpr float kMostBeamM = 0.8F;
 constexpr float kBeamHeightM = 0.7F;
 constexpr float kTableM = 0.2F;           // above the floor
@@ -63,7 +64,12 @@ void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
       }
     }
   }
-  if (free_space) reject_table_tops(model, origin);
+  if (free_space) {
+    reject_table_tops(model, origin);
+    std::erase_if(parts_, [&](const Part& part) {
+      return model.planes[part.plane].normal.z() < 0.0F && part.cells < kLeastCeilingCells;
+    });
+  }
   for (const Part& part : parts_) accept(model, grids, part);
   find_levels(model, origin);
   const std::size_t before = parts_.size();
@@ -83,31 +89,64 @@ void FlatSurfaces::add_part(const Plane& plane, std::size_t k, const PlaneGrid& 
   parts.push_back(part);
 }
 
-bool FlatSurfaces::is_above_floor(const Part& part, const Part& floor) const noexcept {
-  if (part.low.z() < floor.high.z() + kTableM || 4 * part.cells > floor.cells) return false;
+// Over the floor, and mostly within what was seen of it.
+bool FlatSurfaces::is_above_floor(const Model& model, const Part& part,
+                                  const Part& floor) const noexcept {
+  const Vec3f middle = (part.low + part.high) / 2;
+  const Vec3f lowest(middle.x(), middle.y(), part.low.z());
+  if (part.plane == floor.plane || part.cells > floor.cells ||
+      model.planes[floor.plane].height_of(lowest) < kTableM) {
+    return false;
+  }
   const Eigen::Array2f size = (part.high - part.low).head<2>().array() + kCellM;
   const Eigen::Array2f shared =
-      (part.high.cwiseMin(floor.high) - part.low.cwiseMax(floor.low)).head<2>().array() + kCellM;
+      (part.high.cwiseMin(floor.high) - part.low.cwiseMax(floor.low)).head<2>().array() +
+      3 * kCellM;
   return (shared > 0.0F).all() && shared.prod() > kMostlyOver * size.prod();
 }
 
-void FlatSurfaces::reject_table_tops(const Model& model, const Vec3f& origin) noexcept {
-  const Part* floor = nullptr;
-  for (const Part& part : parts_) {
-    if (model.planes[part.plane].normal.z() < kLevel || part.high.z() > origin.z()) continue;
-    if (floor == nullptr || part.cells > floor->cells) floor = &part;
+// All parts of the largest floor as one: furniture divides what is seen of it.
+std::optional<FlatSurfaces::Part> FlatSurfaces::whole_floor(const Model& model,
+                                                            const Vec3f& origin) const noexcept {
+  std::optional<Part> largest;
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    if (model.planes[k].normal.z() < kLevel) continue;
+    std::optional<Part> whole;
+    for (const Part& part : parts_) {
+      if (part.plane != k || part.high.z() > origin.z()) continue;
+      if (!whole) {
+        whole = part;
+        continue;
+      }
+      whole->cells += part.cells;
+      whole->low = whole->low.cwiseMin(part.low);
+      whole->high = whole->high.cwiseMax(part.high);
+    }
+    if (whole && (!largest || whole->cells > largest->cells)) largest = whole;
   }
-  if (floor == nullptr) return;
-  const Part largest = *floor;
+  return largest;
+}
+
+void FlatSurfaces::reject_table_tops(const Model& model, const Vec3f& origin) noexcept {
+  const std::optional<Part> floor = whole_floor(model, origin);
+  if (!floor) return;
   std::erase_if(parts_, [&](const Part& part) {
-    return part.high.z() < origin.z() && is_above_floor(part, largest);
+    return model.planes[part.plane].normal.z() > 0.0F && part.high.z() < origin.z() &&
+           is_above_floor(model, part, *floor);
   });
 }
 
-// The undersides of beams: long, and close under the ceiling.
+// The undersides of beams: long, all parts of one plane together, and close under the ceiling.
 void FlatSurfaces::add_beams(const Model& model) noexcept {
   for (const Part& part : open_parts_) {
-    const Eigen::Array2f size = (part.high - part.low).head<2>().array() + kCellM;
+    Vec3f low = part.low;
+    Vec3f high = part.high;
+    for (const Part& other : open_parts_) {
+      if (other.plane != part.plane) continue;
+      low = low.cwiseMin(other.low);
+      high = high.cwiseMax(other.high);
+    }
+    const Eigen::Array2f size = (high - low).head<2>().array() + kCellM;
     if (model.planes[part.plane].normal.z() < -kLevel && size.maxCoeff() > kLeastBeamM &&
         size.minCoeff() < kMostBeamM && part.low.z() > model.ceiling_z - kBeamHeightM &&
         part.high.z() < model.ceiling_z) {

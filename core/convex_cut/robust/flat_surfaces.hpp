@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/convex_cut/robust/model.hpp"
@@ -11,7 +12,7 @@ namespace convexcut::robust {
 
 // Floors, ceilings and slopes: of the planes that are not vertical, the connected parts around
 // which nothing is seen behind. A table's top is passed by rays to the floor on all sides; where
-// these are hidden, it is told by the floor that goes on around it.
+// these are hidden, it is told by the floor that goes on around it, in one part or several.
 class FlatSurfaces {
  public:
   FlatSurfaces();
@@ -33,7 +34,10 @@ class FlatSurfaces {
   };
   void add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid, std::int16_t id,
                 std::vector<Part>& parts) noexcept;
-  [[nodiscard]] bool is_above_floor(const Part& part, const Part& floor) const noexcept;
+  [[nodiscard]] std::optional<Part> whole_floor(const Model& model,
+                                                const Vec3f& origin) const noexcept;
+  [[nodiscard]] bool is_above_floor(const Model& model, const Part& part,
+                                    const Part& floor) const noexcept;
   void reject_table_tops(const Model& model, const Vec3f& origin) noexcept;
   void accept(Model& model, PlaneGrids& grids, const Part& part) const noexcept;
   void add_beams(const Model& model) noexcept;

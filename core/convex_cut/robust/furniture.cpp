@@ -15,6 +15,9 @@ constexpr float kFlushM = 0.045F;   // nearer is the wall itself
 constexpr float kReachM = 2.0F;     // a wall counts as far as this beside what was seen of it
 constexpr float kGoesOnM = 0.2F;    // beside or above the front
 constexpr float kNeighbourM = 1.0F;
+constexpr float kSameHeightM = 0.1F;
+constexpr float kDeepestRecessM = 0.35F;  // of a window
+constexpr float kSillM = 0.3F;
 constexpr float kNarrowM = 0.8F;
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
@@ -51,11 +54,12 @@ struct PlaneExtent {
 }
 
 // The highest part of a plane's accepted segments near a stretch along it.
-[[nodiscard]] float top_near(const Model& model, std::size_t plane, const WallSegment& s) noexcept {
+[[nodiscard]] float top_near(const Model& model, std::size_t plane, const WallSegment& s,
+                             float reach_m) noexcept {
   float top = -1e9F;
   for (const WallSegment& other : model.segments) {
     if (other.plane != plane || !other.accepted) continue;
-    if (other.begin_m < s.end_m + kNeighbourM && other.end_m > s.begin_m - kNeighbourM) {
+    if (other.begin_m < s.end_m + reach_m && other.end_m > s.begin_m - reach_m) {
       top = std::max(top, other.top_m);
     }
   }
@@ -71,6 +75,26 @@ struct PlaneExtent {
   return along_of(plane) * along_m - plane.normal * plane.offset;
 }
 
+// A pane in a recess of the front: it begins well above the front's bottom and does not rise above
+// its top.
+[[nodiscard]] bool is_pane_of(const Model& model, std::size_t front, std::size_t wall) noexcept {
+  float bottom = 1e9F;
+  float top = -1e9F;
+  float front_bottom = 1e9F;
+  float front_top = -1e9F;
+  for (const WallSegment& s : model.segments) {
+    if (s.plane == wall && s.accepted) {
+      bottom = std::min(bottom, s.bottom_m);
+      top = std::max(top, s.top_m);
+    }
+    if (s.plane == front) {
+      front_bottom = std::min(front_bottom, s.bottom_m);
+      front_top = std::max(front_top, s.top_m);
+    }
+  }
+  return bottom > front_bottom + kSillM && top < front_top + kSillM;
+}
+
 [[nodiscard]] bool stands_before(const Model& model, const WallSegment& front, std::size_t wall,
                                  bool tall) noexcept {
   const Plane& plane = model.planes[front.plane];
@@ -79,7 +103,12 @@ struct PlaneExtent {
   const float depth = behind.height_of(point_of(plane, (front.begin_m + front.end_m) / 2));
   if (depth < kFlushM || depth > kDeepestM) return false;
   const bool fixture = depth < kFixtureM;
-  if (fixture ? behind.surfels < plane.surfels : tall) return false;
+  if (fixture && behind.surfels < plane.surfels) return false;
+  // A tall front is furniture only before a wall that was seen as high.
+  const bool higher = front.top_m < model.ceiling_z - kToCeilingM &&
+                      top_near(model, wall, front, kReachM) > front.top_m - kSameHeightM;
+  if (!fixture && tall && !higher) return false;
+  if (depth < kDeepestRecessM && is_pane_of(model, front.plane, wall)) return false;
   const PlaneExtent of_wall = extent_of(model, wall, true);
   if (of_wall.begin_m > front.end_m + kReachM || of_wall.end_m < front.begin_m - kReachM) {
     return false;
@@ -87,7 +116,7 @@ struct PlaneExtent {
   const PlaneExtent of_front = extent_of(model, front.plane, false);
   const bool beyond =
       of_wall.begin_m < of_front.begin_m - kGoesOnM || of_wall.end_m > of_front.end_m + kGoesOnM;
-  const bool above = top_near(model, wall, front) > front.top_m + kGoesOnM;
+  const bool above = top_near(model, wall, front, kNeighbourM) > front.top_m + kGoesOnM;
   const bool wide = front.end_m - front.begin_m > kNarrowM;
   return (beyond || above) && (wide || fixture);
 }
@@ -109,6 +138,13 @@ struct PlaneExtent {
     }
   }
   return false;
+}
+
+// Whether its plane has a wide part that is a wall.
+[[nodiscard]] bool is_on_wider(const Model& model, const WallSegment& face) noexcept {
+  return std::any_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& s) {
+    return s.plane == face.plane && s.accepted && !s.narrow && s.end_m - s.begin_m > kNarrowM;
+  });
 }
 
 }  // namespace
@@ -133,7 +169,7 @@ void reject_furniture(Model& model) noexcept {
         s.end_m - s.begin_m < kLeastBeamM) {
       s.accepted = false;
     }
-    if (!s.accepted || !s.narrow) continue;
+    if (!s.accepted || !s.narrow || is_on_wider(model, s)) continue;
     const bool round = model.planes[s.plane].spread2 > kRounder * model.noise2;
     if (round || s.top_m - s.bottom_m < kLeastHeightM || is_side_of_rejected(model, s)) {
       s.accepted = false;

@@ -25,8 +25,8 @@ struct Surfel {
   std::int32_t points = 0;
   std::int32_t plane = kNoPlane;  // that it lies on
   Shape shape = Shape::other;
-  bool mirrored = false;  // an image behind a mirror, not a surface
-  bool supported = false;
+  bool mirrored = false;   // an image behind a mirror, not a surface
+  bool supported = false;  // by enough points to be a surface
 
   // Whether its ray tells of free space.
   [[nodiscard]] bool is_evidence() const noexcept { return supported && !mirrored; }

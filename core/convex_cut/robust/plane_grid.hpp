@@ -25,6 +25,8 @@ struct Cell {
   float height_sum_m = 0.0F;  // of the points, over the plane
   float layer_m = 0.0F;       // how far the fixture that covers the cell is off the wall; 0: none
   bool structure = false;
+  bool before = false;    // something is seen close before it
+  bool enclosed = false;  // that above and below: the back of a shelf
   bool visited = false;
 };
 

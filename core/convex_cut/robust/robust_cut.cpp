@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/convex_cut/cloud_check.hpp"
+#include "core/convex_cut/robust/backs.hpp"
 #include "core/convex_cut/robust/recentring.hpp"
 #include "core/convex_cut/robust/shape.hpp"
 
@@ -39,6 +40,14 @@ constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
 [[nodiscard]] std::size_t checked(std::size_t max_points) {
   if (max_points > kMostPoints) throw std::invalid_argument("Convex Cut: too many points");
   return max_points;
+}
+
+// Ghosts gather in a voxel as the window grows, but not on a surface.
+[[nodiscard]] bool is_supported(const Voxel& voxel, std::uint32_t revolutions) noexcept {
+  const std::int32_t least = voxel.shape == robust::Shape::other
+                                 ? robust::kSupport + static_cast<std::int32_t>(revolutions) - 1
+                                 : robust::kSupport;
+  return voxel.moments.count >= least;
 }
 
 // m², of a voxel's points across a plane, about their mean.
@@ -207,7 +216,7 @@ void RobustCut::take_surfels() noexcept {
     surfel.origin = window_.origin_of(voxel);
     surfel.points = voxel.moments.count;
     surfel.shape = voxel.shape;
-    surfel.supported = voxel.moments.count >= robust::kSupport;
+    surfel.supported = is_supported(voxel, window_.revolutions());
     model_.surfels.push_back(surfel);
   }
 }
@@ -218,6 +227,7 @@ void RobustCut::find_structure() noexcept {
   grids_.build(model_);
   flat_surfaces_.find(model_, grids_, window_.origin(), parameters_.free_space);
   walls_.find(model_, grids_, parameters_);
+  if (parameters_.furniture) robust::mark_backs(model_, grids_);
   if (parameters_.fixtures) fixtures_.find(model_, grids_);
 }
 

@@ -14,9 +14,55 @@ constexpr std::size_t kMostSegments = 2'048;
 constexpr std::int32_t kGap = 2;      // columns within a run that may be missing
 constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
 constexpr float kToCeilingM = 0.35F;
+constexpr float kNarrowM = 0.8F;
+constexpr float kWidestScreenM = 2.5F;
+constexpr float kBelowCeilingM = 0.45F;
+constexpr float kRough = 2.5F;  // spread², relative to the noise²
+constexpr std::int32_t kBeside = 2;
 constexpr float kMarginM = 0.2F;  // to floor and ceiling
 constexpr std::uint32_t kLeastCells = 4;
 constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
+
+[[nodiscard]] float width_of(const WallSegment& s) noexcept { return s.end_m - s.begin_m; }
+
+// Fronts of books, folds of curtains. Of narrow faces the shape is told elsewhere.
+[[nodiscard]] bool is_rough(const Model& model, const WallSegment& s) noexcept {
+  return width_of(s) > kNarrowM && model.planes[s.plane].spread2 > kRough * model.noise2;
+}
+
+// Whether rays pass columns [first, end) in most rows between two heights.
+[[nodiscard]] bool is_passed(const Model& model, const PlaneGrids& grids, const WallSegment& s,
+                             std::int32_t first, std::int32_t end) noexcept {
+  const PlaneGrid& grid = grids.grid(s.plane);
+  std::int32_t rows = 0;
+  std::int32_t passed = 0;
+  for (std::int32_t row = 0; row < grid.rows; ++row) {
+    const float z = grid.centre(model.planes[s.plane], s.first, row).z();
+    if (z < s.bottom_m || z > s.top_m) continue;
+    ++rows;
+    bool any = false;
+    for (std::int32_t c = first; c < end; ++c) {
+      any = any || (grid.holds(c, row) && grids.cell(grid, c, row).passed >= kPassed);
+    }
+    passed += any ? 1 : 0;
+  }
+  return 2 * passed > rows;
+}
+
+// Whether rays pass on both sides of what ends below the ceiling: a board on wheels, a screen.
+[[nodiscard]] bool stands_free(const Model& model, const PlaneGrids& grids,
+                               const WallSegment& s) noexcept {
+  if (s.top_m > model.ceiling_z - kBelowCeilingM || width_of(s) > kWidestScreenM ||
+      width_of(s) < kNarrowM) {
+    return false;
+  }
+  const bool on_a_wall =
+      std::any_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& other) {
+        return &other != &s && other.plane == s.plane && other.closed > s.closed;
+      });
+  return !on_a_wall && is_passed(model, grids, s, s.first - kBeside, s.first) &&
+         is_passed(model, grids, s, s.end, s.end + kBeside);
+}
 
 }  // namespace
 
@@ -29,7 +75,12 @@ void Walls::find(Model& model, PlaneGrids& grids, const RobustParameters& parame
     take_columns(model, grids, k);
     split(model, grids, k, parameters.free_space);
   }
-  if (parameters.furniture) reject_furniture(model);
+  if (parameters.furniture) {
+    for (WallSegment& s : model.segments) {
+      s.accepted = s.accepted && !is_rough(model, s) && !stands_free(model, grids, s);
+    }
+    reject_furniture(model);
+  }
   for (const WallSegment& segment : model.segments) {
     if (!segment.accepted) continue;
     model.planes[segment.plane].accepted = true;
