@@ -15,7 +15,7 @@ constexpr float kAlong = 0.5F;       // |cos| of a surface's normal to the wall'
 constexpr float kSameM = 0.2F;
 constexpr float kSameNormal = 0.85F;
 constexpr std::uint32_t kLeastInformative = 6;
-constexpr float kLeastMatching = 0.6F;
+constexpr float kLeastMatching = 0.4F;
 constexpr float kLeastFrame = 0.35F;
 constexpr std::int32_t kFrame = 2;  // cells
 

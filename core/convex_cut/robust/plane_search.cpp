@@ -61,7 +61,7 @@ void PlaneSearch::run(Model& model, const Vec3f& origin) noexcept {
   for (std::size_t i = 0; i < model.surfels.size(); ++i) {
     Surfel& surfel = model.surfels[i];
     surfel.plane = kNoPlane;
-    if (surfel.shape != Shape::other && !surfel.mirrored) {
+    if (surfel.shape != Shape::other && surfel.is_evidence()) {
       left_.push_back(static_cast<std::uint32_t>(i));
     }
   }

@@ -26,7 +26,9 @@ constexpr std::size_t kMostSegments = 2'048;
 
 constexpr float kUnknownMotionM = 0.10F;  // in a revolution, one sigma
 constexpr float kKnownMotionM = 0.02F;
-constexpr float kStillM = 0.02F;  // a step below this is none
+constexpr float kLeastFilled = 0.012F;  // of what a surface across the beams would return
+constexpr float kViewSr = 4.5F;         // steradians, of an HDL-32E
+constexpr float kStillM = 0.02F;        // a step below this is none
 constexpr float kLeastOfLastShare = 0.5F;
 constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
 constexpr std::int32_t kFlatReach = 6;     // cells: between two rings on a far floor
@@ -42,12 +44,22 @@ constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
   return max_points;
 }
 
+// Of a voxel with a shape, points for which it is believed: a surface that fills a voxel near the
+// lidar returns hundreds in a revolution, and what ghosts gather there is far less.
+[[nodiscard]] float least_points(float range_m, std::size_t points_of_revolution) noexcept {
+  const float solid_angle = robust::kVoxelM * robust::kVoxelM / (range_m * range_m);
+  return kLeastFilled * static_cast<float>(points_of_revolution) * solid_angle / kViewSr;
+}
+
 // Ghosts gather in a voxel as the window grows, but not on a surface.
-[[nodiscard]] bool is_supported(const Voxel& voxel, std::uint32_t revolutions) noexcept {
-  const std::int32_t least = voxel.shape == robust::Shape::other
+[[nodiscard]] bool is_supported(const Surfel& surfel, std::uint32_t revolutions,
+                                std::size_t points_of_revolution) noexcept {
+  const std::int32_t least = surfel.shape == robust::Shape::other
                                  ? robust::kSupport + static_cast<std::int32_t>(revolutions) - 1
                                  : robust::kSupport;
-  return voxel.moments.count >= least;
+  const float range_m = std::max((surfel.mean - surfel.origin).norm(), robust::kVoxelM);
+  return surfel.points >= least &&
+         static_cast<float>(surfel.points) >= least_points(range_m, points_of_revolution);
 }
 
 // m², of a voxel's points across a plane, about their mean.
@@ -184,6 +196,7 @@ void RobustCut::place(const CloudView& cloud, const std::optional<Vec3>& positio
 }
 
 void RobustCut::fill_voxels(const CloudView& cloud) noexcept {
+  points_ = cloud.size();
   revolution_.clear();
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float share = static_cast<float>(i) / static_cast<float>(cloud.size());
@@ -216,7 +229,7 @@ void RobustCut::take_surfels() noexcept {
     surfel.origin = window_.origin_of(voxel);
     surfel.points = voxel.moments.count;
     surfel.shape = voxel.shape;
-    surfel.supported = is_supported(voxel, window_.revolutions());
+    surfel.supported = is_supported(surfel, window_.revolutions(), points_);
     model_.surfels.push_back(surfel);
   }
 }

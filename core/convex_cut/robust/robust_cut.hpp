@@ -97,6 +97,7 @@ class RobustCut {
   std::vector<Near> near_;                          // by voxel of the revolution
   robust::RigPose pose_;
   std::optional<Vec3> given_position_m_;  // of the last revolution
+  std::size_t points_ = 0;                // of the revolution at hand
   float structure_share_ = 0.0F;          // of the last revolution's points
 };
 
