@@ -99,8 +99,7 @@ std::vector<NamedMethod> ablations() {
       without("no curved part", "planes only", &RobustParameters::curved),
       without("no mirror test", "mirror images are kept", &RobustParameters::mirrors),
       without("no upright correction", "gravity is believed", &RobustParameters::upright),
-      without("no alignment", "each revolution's pose is believed", &RobustParameters::align),
-      without("no re-centring", "planes of the whole window", &RobustParameters::recentre)};
+      without("no alignment", "each revolution's pose is believed", &RobustParameters::align)};
 }
 
 NamedMethod robust_with_positions() {

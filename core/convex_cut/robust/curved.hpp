@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,38 +12,22 @@
 
 namespace convexcut::robust {
 
-// Structure that no plane explains: curved walls, round pillars. Surfels that are the farthest of
-// their azimuth, in connected groups that reach the ceiling; and what goes on smoothly from a wall.
+// Structure that no plane explains: curved walls. What goes on smoothly from a wall, from voxel to
+// voxel.
 class Curved {
  public:
   explicit Curved(std::size_t max_surfels);
 
   // By surfel: 1 where it is structure.
   [[nodiscard]] std::span<const std::uint8_t> find(const Model& model, const PlaneGrids& grids,
-                                                   const VoxelMap& map,
-                                                   const Vec3f& origin) noexcept;
+                                                   const VoxelMap& map) noexcept;
 
  private:
-  static constexpr std::size_t kSectors = 360;
+  void take_seeds(const Model& model, const PlaneGrids& grids) noexcept;
+  void grow(const Model& model, const VoxelMap& map) noexcept;
 
-  struct Candidate {
-    std::uint64_t place = 0;  // of its square of the ground
-    std::uint32_t surfel = 0;
-    bool visited = false;
-  };
-  void measure_sectors(const Model& model, const Vec3f& origin) noexcept;
-  void collect_candidates(const Model& model, const PlaneGrids& grids,
-                          const Vec3f& origin) noexcept;
-  void collect_group(std::size_t seed) noexcept;
-  void visit_place(std::uint64_t place) noexcept;
-  [[nodiscard]] bool is_structure(const Model& model) const noexcept;
-  void grow(const Model& model, const PlaneGrids& grids, const VoxelMap& map) noexcept;
-
-  std::array<float, kSectors> farthest_m_{};
-  std::vector<Candidate> candidates_;  // by place
-  std::vector<std::uint32_t> group_;   // candidates; also the queue of the search for them
-  std::vector<std::uint32_t> queue_;   // surfels
-  std::vector<std::uint8_t> state_;    // by surfel
+  std::vector<std::uint32_t> queue_;  // surfels
+  std::vector<std::uint8_t> state_;   // by surfel
   std::vector<std::uint8_t> structure_;
 };
 

@@ -17,9 +17,8 @@ struct RobustParameters {
   bool furniture = true;   // a front with a wall close behind it is furniture
   bool fixtures = true;    // what is mounted flat on a wall is no wall
   bool mirrors = true;     // what is a wall's mirror image is none
-  bool curved = true;      // structure that no plane explains
+  bool curved = true;      // what goes on smoothly from a wall is one
   bool free_space = true;  // a surface must bound the free space; without, all planes are kept
-  bool recentre = true;    // fits planes anew to the revolution that is labelled
 };
 
 inline constexpr std::uint32_t kMaxRobustWindow = 100;

@@ -8,7 +8,6 @@
 
 #include "core/convex_cut/cloud_check.hpp"
 #include "core/convex_cut/robust/backs.hpp"
-#include "core/convex_cut/robust/recentring.hpp"
 #include "core/convex_cut/robust/shape.hpp"
 
 namespace convexcut {
@@ -118,10 +117,8 @@ RobustCut::RobustCut(const RobustParameters& parameters, std::size_t max_points)
       curved_(kMostWindowVoxels) {
   voxel_of_point_.resize(max_points);
   model_.surfels.reserve(kMostWindowVoxels);
-  model_.planes.reserve(robust::PlaneSearch::kMostPlanes);
   model_.segments.reserve(kMostSegments);
-  centred_planes_.reserve(robust::PlaneSearch::kMostPlanes);
-  revolution_surfels_.reserve(std::min(max_points, kMostVoxels));
+  model_.planes.reserve(robust::PlaneSearch::kMostPlanes);
   near_.reserve(std::min(max_points, kMostVoxels));
 }
 
@@ -215,9 +212,8 @@ void RobustCut::analyse() noexcept {
   if (parameters_.mirrors && mirrors_.find(model_, grids_, window_.map())) find_structure();
   is_curved_ = {};
   if (parameters_.curved) {
-    is_curved_ = curved_.find(model_, grids_, window_.map(), window_.origin());
+    is_curved_ = curved_.find(model_, grids_, window_.map());
   }
-  recentre();
 }
 
 void RobustCut::take_surfels() noexcept {
@@ -244,24 +240,6 @@ void RobustCut::find_structure() noexcept {
   if (parameters_.fixtures) fixtures_.find(model_, grids_);
 }
 
-void RobustCut::recentre() noexcept {
-  centred_planes_.clear();
-  revolution_surfels_.clear();
-  for (const Voxel& voxel : revolution_.voxels()) {
-    Surfel surfel;
-    surfel.mean = voxel.mean();
-    surfel.points = voxel.moments.count;
-    surfel.supported = voxel.moments.count >= robust::kSupport;
-    revolution_surfels_.push_back(surfel);
-  }
-  for (std::size_t k = 0; k < model_.planes.size(); ++k) {
-    const Plane& plane = model_.planes[k];
-    centred_planes_.push_back(parameters_.recentre && plane.accepted
-                                  ? robust::recentred(model_, grids_, k, revolution_surfels_)
-                                  : plane);
-  }
-}
-
 void RobustCut::take_near() noexcept {
   near_.clear();
   const float reach_m = parameters_.band_m + kHalfDiagonal * robust::kVoxelM;
@@ -275,8 +253,8 @@ void RobustCut::take_near() noexcept {
     }
     near.curved = known && !is_curved_.empty() && is_curved_[merged] != 0;
     const Vec3f centre = robust::centre_of(robust::place_of(voxel.key));
-    for (std::size_t k = 0; k < centred_planes_.size() && near.count < Near::kMost; ++k) {
-      const Plane& plane = centred_planes_[k];
+    for (std::size_t k = 0; k < model_.planes.size() && near.count < Near::kMost; ++k) {
+      const Plane& plane = model_.planes[k];
       if (!plane.accepted || std::abs(plane.height_of(centre)) > reach_m) continue;
       if (known && is_fixture(model_.surfels[merged], k)) continue;
       near.planes.at(near.count++) = static_cast<std::int8_t>(k);
@@ -299,8 +277,8 @@ bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept 
   const Near& near = near_[static_cast<std::size_t>(voxel)];
   for (std::size_t i = 0; i < near.count; ++i) {
     const auto k = static_cast<std::size_t>(near.planes.at(i));
-    if (std::abs(centred_planes_[k].height_of(p)) <= parameters_.band_m &&
-        grids_.is_structure(k, p, centred_planes_[k].vertical ? 1 : kFlatReach)) {
+    if (std::abs(model_.planes[k].height_of(p)) <= parameters_.band_m &&
+        grids_.is_structure(k, p, model_.planes[k].vertical ? 1 : kFlatReach)) {
       return true;
     }
   }

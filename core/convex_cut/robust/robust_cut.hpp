@@ -73,7 +73,6 @@ class RobustCut {
   void analyse() noexcept;
   void take_surfels() noexcept;
   void find_structure() noexcept;
-  void recentre() noexcept;
   void take_near() noexcept;
   [[nodiscard]] bool is_fixture(const robust::Surfel& surfel, std::size_t plane) const noexcept;
   [[nodiscard]] bool is_structure(const Vec3f& p, std::int32_t voxel) const noexcept;
@@ -91,10 +90,8 @@ class RobustCut {
   robust::Fixtures fixtures_;
   robust::Mirrors mirrors_;
   robust::Curved curved_;
-  std::span<const std::uint8_t> is_curved_;         // by surfel
-  std::vector<robust::Plane> centred_planes_;       // as the revolution at hand shows them
-  std::vector<robust::Surfel> revolution_surfels_;  // by voxel of the revolution: mean, points
-  std::vector<Near> near_;                          // by voxel of the revolution
+  std::span<const std::uint8_t> is_curved_;  // by surfel
+  std::vector<Near> near_;                   // by voxel of the revolution
   robust::RigPose pose_;
   std::optional<Vec3> given_position_m_;  // of the last revolution
   std::size_t points_ = 0;                // of the revolution at hand
