@@ -25,7 +25,7 @@ constexpr std::size_t kMostSegments = 2'048;
 
 constexpr float kUnknownMotionM = 0.10F;  // in a revolution, one sigma
 constexpr float kKnownMotionM = 0.02F;
-constexpr float kLeastFilled = 0.012F;  // of what a surface across the beams would return
+constexpr float kLeastFilled = 0.018F;  // of what a surface across the beams would return
 constexpr float kViewSr = 4.5F;         // steradians, of an HDL-32E
 constexpr float kStillM = 0.02F;        // a step below this is none
 constexpr float kLeastOfLastShare = 0.5F;
