@@ -91,7 +91,7 @@ void FlatSurfaces::add_part(const Plane& plane, std::size_t k, const PlaneGrid& 
 
 // Over the floor, and mostly within what was seen of it.
 bool FlatSurfaces::is_above_floor(const Model& model, const Part& part,
-                                  const Part& floor) const noexcept {
+                                  const Part& floor) noexcept {
   const Vec3f middle = (part.low + part.high) / 2;
   const Vec3f lowest(middle.x(), middle.y(), part.low.z());
   if (part.plane == floor.plane || part.cells > floor.cells ||
@@ -155,7 +155,7 @@ void FlatSurfaces::add_beams(const Model& model) noexcept {
   }
 }
 
-void FlatSurfaces::accept(Model& model, PlaneGrids& grids, const Part& part) const noexcept {
+void FlatSurfaces::accept(Model& model, PlaneGrids& grids, const Part& part) noexcept {
   model.planes[part.plane].accepted = true;
   const PlaneGrid& grid = grids.grid(part.plane);
   for (std::int32_t row = 0; row < grid.rows; ++row) {
@@ -166,7 +166,7 @@ void FlatSurfaces::accept(Model& model, PlaneGrids& grids, const Part& part) con
   }
 }
 
-void FlatSurfaces::find_levels(Model& model, const Vec3f& origin) const noexcept {
+void FlatSurfaces::find_levels(Model& model, const Vec3f& origin) noexcept {
   model.floor_z = -std::numeric_limits<float>::infinity();
   model.ceiling_z = std::numeric_limits<float>::infinity();
   for (const Plane& plane : model.planes) {

@@ -36,12 +36,12 @@ class FlatSurfaces {
                 std::vector<Part>& parts) noexcept;
   [[nodiscard]] std::optional<Part> whole_floor(const Model& model,
                                                 const Vec3f& origin) const noexcept;
-  [[nodiscard]] bool is_above_floor(const Model& model, const Part& part,
-                                    const Part& floor) const noexcept;
+  [[nodiscard]] static bool is_above_floor(const Model& model, const Part& part,
+                                           const Part& floor) noexcept;
   void reject_table_tops(const Model& model, const Vec3f& origin) noexcept;
-  void accept(Model& model, PlaneGrids& grids, const Part& part) const noexcept;
+  static void accept(Model& model, PlaneGrids& grids, const Part& part) noexcept;
   void add_beams(const Model& model) noexcept;
-  void find_levels(Model& model, const Vec3f& origin) const noexcept;
+  static void find_levels(Model& model, const Vec3f& origin) noexcept;
   void collect_part(PlaneGrids& grids, const PlaneGrid& grid, Place seed, std::int16_t id) noexcept;
   [[nodiscard]] bool bounds_free_space(PlaneGrids& grids, const PlaneGrid& grid,
                                        std::int16_t id) noexcept;

@@ -257,7 +257,7 @@ void RobustCut::take_near() noexcept {
       const Plane& plane = model_.planes[k];
       if (!plane.accepted || std::abs(plane.height_of(centre)) > reach_m) continue;
       if (known && is_fixture(model_.surfels[merged], k)) continue;
-      near.planes.at(near.count++) = static_cast<std::int8_t>(k);
+      near.planes.at(near.count++) = static_cast<std::uint8_t>(k);
     }
     near_.push_back(near);
   }

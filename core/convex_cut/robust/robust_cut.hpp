@@ -62,7 +62,7 @@ class RobustCut {
   // The accepted planes near a voxel.
   struct Near {
     static constexpr std::size_t kMost = 4;
-    std::array<std::int8_t, kMost> planes{};
+    std::array<std::uint8_t, kMost> planes{};
     std::uint8_t count = 0;
     bool curved = false;
   };

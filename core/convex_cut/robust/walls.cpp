@@ -120,7 +120,7 @@ void Walls::take_columns(const Model& model, const PlaneGrids& grids, std::size_
 
 // What reaches up to the ceiling and is passed below only: a beam, a lintel.
 bool Walls::hangs_from_ceiling(const Model& model, const PlaneGrids& grids, std::size_t plane,
-                               std::int32_t c, const Column& column) const noexcept {
+                               std::int32_t c, const Column& column) noexcept {
   const PlaneGrid& grid = grids.grid(plane);
   if (column.seen == 0 || std::isinf(model.ceiling_z) ||
       grid.centre(model.planes[plane], c, column.top).z() < model.ceiling_z - kToCeilingM) {

@@ -30,9 +30,9 @@ class Walls {
     std::int32_t bottom = 0, top = -1;
   };
   void take_columns(const Model& model, const PlaneGrids& grids, std::size_t plane) noexcept;
-  [[nodiscard]] bool hangs_from_ceiling(const Model& model, const PlaneGrids& grids,
-                                        std::size_t plane, std::int32_t c,
-                                        const Column& column) const noexcept;
+  [[nodiscard]] static bool hangs_from_ceiling(const Model& model, const PlaneGrids& grids,
+                                               std::size_t plane, std::int32_t c,
+                                               const Column& column) noexcept;
   void split(Model& model, const PlaneGrids& grids, std::size_t plane, bool free_space) noexcept;
   void split_run(Model& model, const PlaneGrids& grids, std::size_t plane, std::int32_t first,
                  std::int32_t end) noexcept;
