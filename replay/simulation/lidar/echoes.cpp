@@ -72,9 +72,9 @@ Optics::Optics(const Scene& scene, const LidarOptions& options)
       stretch_(options.divergence.value / options.pulse_length_m),
       pulse_length_m_(options.pulse_length_m) {}
 
-void Optics::trace(const SceneAt& scene, const Ray& ray, const Hit& hit, double weight,
-                   Echoes& echoes) const noexcept {
-  follow(scene, ray, hit, {.energy = weight}, echoes);
+void Optics::trace(const Surroundings& around, std::size_t /*laser*/, const Ray& ray,
+                   const Hit& hit, double weight, Echoes& echoes) const noexcept {
+  follow(around, ray, hit, {.energy = weight}, echoes);
 }
 
 // A diffuse surface scatters like Lambert's; a beam that meets it on a slant comes back as a longer
@@ -98,7 +98,7 @@ Echo Optics::scattered(const Hit& hit, double cosine, const Light& light) const 
   return echo;
 }
 
-void Optics::follow(const SceneAt& scene, const Ray& ray, const Hit& hit, const Light& light,
+void Optics::follow(const Surroundings& around, const Ray& ray, const Hit& hit, const Light& light,
                     Echoes& echoes) const noexcept {
   const SurfaceInfo& surface = surfaces_[hit.surface];
   const double cosine = std::min(std::abs(ray.direction.dot(hit.normal)), 1.0);
@@ -123,7 +123,7 @@ void Optics::follow(const SceneAt& scene, const Ray& ray, const Hit& hit, const 
     if (light.mirror == kNoSurface) beyond.flags |= kThroughGlass;
     Ray on = ray;
     on.min_distance_m = hit.distance_m + kBehindSurface;
-    cast_on(scene, on, beyond, echoes);
+    cast_on(around, on, beyond, echoes);
   }
   Light reflected = light;
   reflected.travelled_m += hit.distance_m;
@@ -131,14 +131,14 @@ void Optics::follow(const SceneAt& scene, const Ray& ray, const Hit& hit, const 
   reflected.turns += 1;
   reflected.flags = kSpecularGhost;
   if (light.mirror == kNoSurface) reflected.mirror = hit.surface;
-  cast_on(scene, mirrored(ray, hit), reflected, echoes);
+  cast_on(around, mirrored(ray, hit), reflected, echoes);
 }
 
-void Optics::cast_on(const SceneAt& scene, const Ray& ray, const Light& light,
+void Optics::cast_on(const Surroundings& around, const Ray& ray, const Light& light,
                      Echoes& echoes) const noexcept {
   Hit hit;
-  if (light.energy < kFaintest || !scene.cast(ray, hit)) return;
-  follow(scene, ray, hit, light, echoes);
+  if (light.energy < kFaintest || !around.cast(ray, hit)) return;
+  follow(around, ray, hit, light, echoes);
 }
 
 std::size_t Optics::join(Echoes& echoes) const noexcept {

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "replay/simulation/lidar/lidar_options.hpp"
+#include "replay/simulation/lidar/surroundings.hpp"
 #include "replay/simulation/scene/ray.hpp"
 #include "replay/simulation/scene/scene.hpp"
 
@@ -42,14 +43,10 @@ class Optics {
  public:
   Optics(const Scene& scene, const LidarOptions& options);
 
-  // Adds the echoes of a ray, whose first hit is known, with `weight` of the pulse's energy.
-  void trace(const SceneAt& scene, const Ray& ray, const Hit& hit, double weight,
-             Echoes& echoes) const noexcept;
-
-  // Whether light that arrives at this surface goes on from there.
-  [[nodiscard]] bool is_diffuse(const Hit& hit) const noexcept {
-    return surfaces_[hit.surface].material == Material::diffuse;
-  }
+  // Adds the echoes of a ray of the laser's beam, whose first hit is known, with `weight` of the
+  // pulse's energy.
+  void trace(const Surroundings& around, std::size_t laser, const Ray& ray, const Hit& hit,
+             double weight, Echoes& echoes) const noexcept;
 
   // Sorts the echoes by range and joins those within a pulse length, each group to its weighted
   // mean, in place; how many pulses there are.
@@ -63,9 +60,9 @@ class Optics {
     std::uint32_t mirror = kNoSurface;  // the first one on the way
     int turns = 0;                      // surfaces that it has passed
   };
-  void follow(const SceneAt& scene, const Ray& ray, const Hit& hit, const Light& light,
+  void follow(const Surroundings& around, const Ray& ray, const Hit& hit, const Light& light,
               Echoes& echoes) const noexcept;
-  void cast_on(const SceneAt& scene, const Ray& ray, const Light& light,
+  void cast_on(const Surroundings& around, const Ray& ray, const Light& light,
                Echoes& echoes) const noexcept;
   [[nodiscard]] Echo scattered(const Hit& hit, double cosine, const Light& light) const noexcept;
 

@@ -50,7 +50,6 @@ void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
   const Column& before = caster_.column(number - 1);
   const Column& own = caster_.column(number);
   const Column& next = caster_.column(number + 1);
-  const SceneAt& scene = caster_.scene_of(own);
   out.index = firing;
   out.since_start = caster_.time_of(number);
   out.azimuth = caster_.rotor(number);
@@ -63,7 +62,7 @@ void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
     const Chance chance = draw(random);
     if (chance.lost) continue;
     echoes_.clear();
-    beam_.add_echoes({before, own, next}, laser, upright_[laser], scene, optics_, echoes_);
+    beam_.add_echoes({before, own, next}, laser, upright_[laser], optics_, echoes_);
     const Seen seen = receive(echoes_.all().first(optics_.join(echoes_)), random);
     if (seen.strongest == nullptr) continue;
     // Drawn first, so that a dual-return sensor sees what a single-return one sees, and more.
@@ -83,8 +82,7 @@ void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
 void LidarSimulator::look_below_and_above(std::int64_t firing) {
   if (looked_at_ == firing) return;
   looked_at_ = firing;
-  const Column& column = caster_.column(firing);
-  upright_ = beam_.upright_sides(column, caster_.scene_of(column));
+  upright_ = beam_.upright_sides(caster_.column(firing));
 }
 
 LidarSimulator::Chance LidarSimulator::draw(Random& random) const noexcept {
