@@ -58,19 +58,17 @@ Beam::UprightSides Beam::upright_sides(const Column& column) const noexcept {
   return found;
 }
 
-void Beam::add_echoes(const Neighbourhood& around, std::size_t laser, Sides upright,
+Sides Beam::level_sides(const Neighbourhood& around, std::size_t laser) const noexcept {
+  if (radius_ <= 0.0) return 0;
+  Sides sides = 0;
+  if (!same_plane(around.own, laser, around.before, laser)) sides |= 1U << kBefore;
+  if (!same_plane(around.own, laser, around.next, laser)) sides |= 1U << kNext;
+  return sides;
+}
+
+void Beam::add_echoes(const Neighbourhood& around, std::size_t laser, Sides sides,
                       const Optics& optics, Echoes& echoes) const noexcept {
   const Column& own = around.own;
-  Sides sides = upright;
-  if (radius_ > 0.0) {
-    if (!same_plane(own, laser, around.before, laser)) sides |= 1U << kBefore;
-    if (!same_plane(own, laser, around.next, laser)) sides |= 1U << kNext;
-  }
-  if (sides == 0) {
-    if (own.met[laser])
-      optics.trace(*own.around, laser, own.rays[laser], own.hits[laser], 1.0, echoes);
-    return;
-  }
   Rims rims;
   const bool edge = finds_edge(around, laser, sides, rims);
   if (own.met[laser]) {

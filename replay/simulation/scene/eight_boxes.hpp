@@ -67,12 +67,14 @@ class BoxRay {
     least_ = all(std::max(least, 0.0F));
   }
 
-  // Calls met(lane, where the ray enters, ≥ 0) for each box that the ray may meet before `limit`.
+  // Calls met(lane, where the ray enters, ≥ 0) for each of the first `lanes` boxes that the ray may
+  // meet before `limit`.
   template <class Met>
-  void meet(const EightBoxes& boxes, float limit, Met&& met) const noexcept {
+  void meet(const EightBoxes& boxes, float limit, Met&& met,
+            std::size_t lanes = EightBoxes::kLanes) const noexcept {
     unsigned hits = 0;
     EightBoxes::Lanes enters;
-    for (std::size_t first = 0; first < EightBoxes::kLanes; first += 4) {
+    for (std::size_t first = 0; first < lanes; first += 4) {
       Floats enter = least_;
       Floats leave = all(limit);
       for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -87,18 +87,20 @@ bool SceneAt::cast(const Ray& ray, Hit& hit) const noexcept {
 
 bool SceneAt::cast(const Ray& ray, const InShaft& in_shaft, Hit& hit) const noexcept {
   Nearest nearest(ray.max_distance_m);
-  if (in_shaft.is_one()) {
+  if (in_shaft.size() == 1) {
     try_on(in_shaft.groups_.front().things.front(), ray, nearest);
   } else {
     const BoxRay box_ray(ray);
     float limit = limit_of(nearest);
+    const std::size_t lanes = in_shaft.size() <= kLanes / 2 ? kLanes / 2 : kLanes;
     for (const InShaft::Group& group : in_shaft.groups_) {
       if (group.nearest > limit) break;
-      box_ray.meet(group.boxes, limit, [&](std::size_t lane, float enter) {
+      const auto met = [&](std::size_t lane, float enter) {
         if (enter > limit) return;
         try_on(group.things[lane], ray, nearest);
         limit = limit_of(nearest);
-      });
+      };
+      box_ray.meet(group.boxes, limit, met, lanes);
     }
   }
   return settle(ray, nearest, hit);

@@ -101,7 +101,7 @@ class InShaft {
 
  private:
   friend class SceneAt;
-  [[nodiscard]] bool is_one() const noexcept { return found_.size() == 1; }
+  [[nodiscard]] std::size_t size() const noexcept { return found_.size(); }
   struct Group {
     EightBoxes boxes = EightBoxes::nothing();
     std::array<std::uint32_t, EightBoxes::kLanes> things{};
