@@ -102,8 +102,8 @@ Optics::Optics(const Scene& scene, const LidarOptions& options)
       stretch_(options.divergence.value / options.pulse_length_m),
       pulse_length_m_(options.pulse_length_m) {}
 
-void Optics::trace(const Surroundings& around, std::size_t laser, const Ray& ray,
-                   const Hit& hit, double weight, Echoes& echoes) const noexcept {
+void Optics::trace(const Surroundings& around, std::size_t laser, const Ray& ray, const Hit& hit,
+                   double weight, Echoes& echoes) const noexcept {
   follow(around, ray, hit, {.energy = weight, .laser = laser}, echoes);
 }
 
@@ -114,8 +114,7 @@ void Optics::scatter(const Column& column, PlainEchoes& out) const noexcept {
   Numbers reflectivity = Numbers::Zero();
   for (std::size_t laser = 0; laser < Column::kLasers; ++laser) {
     const Hit& hit = column.hits[laser];
-    out.is_plain[laser] =
-        column.met[laser] && surfaces_[hit.surface].material == Material::diffuse;
+    out.is_plain[laser] = column.met[laser] && surfaces_[hit.surface].material == Material::diffuse;
     if (!out.is_plain[laser]) continue;
     const auto i = static_cast<Eigen::Index>(laser);
     range[i] = hit.distance_m;
@@ -126,17 +125,6 @@ void Optics::scatter(const Column& column, PlainEchoes& out) const noexcept {
   out.energy = reflectivity * peak_of(cosine, stretched) / (range * range);
   out.brightness = brightness_of(reflectivity, cosine);
   out.seen = probability_of(out.energy);
-}
-
-Echo Optics::plain_echo(const Column& column, const PlainEchoes& all,
-                        std::size_t laser) const noexcept {
-  const auto i = static_cast<Eigen::Index>(laser);
-  const Hit& hit = column.hits[laser];
-  return {.range_m = hit.distance_m,
-          .energy = all.energy[i],
-          .brightness = all.brightness[i],
-          .surface = hit.surface,
-          .label = surfaces_[hit.surface].label};
 }
 
 double Optics::seen_probability(double energy) noexcept { return probability_of(energy); }

@@ -49,7 +49,7 @@ struct PlainEchoes {
   using Numbers = Eigen::Array<double, Column::kLasers, 1>;
   Numbers energy;
   Numbers brightness;
-  Numbers seen;                        // how probably
+  Numbers seen;                           // how probably
   std::bitset<Column::kLasers> is_plain;  // false: nothing, glass or a mirror is met
 };
 
@@ -65,7 +65,15 @@ class Optics {
   void scatter(const Column& column, PlainEchoes& out) const noexcept;
   // The one of a laser for which is_plain is true.
   [[nodiscard]] Echo plain_echo(const Column& column, const PlainEchoes& all,
-                                std::size_t laser) const noexcept;
+                                std::size_t laser) const noexcept {
+    const auto i = static_cast<Eigen::Index>(laser);
+    const Hit& hit = column.hits[laser];
+    return {.range_m = hit.distance_m,
+            .energy = all.energy[i],
+            .brightness = all.brightness[i],
+            .surface = hit.surface,
+            .label = surfaces_[hit.surface].label};
+  }
 
   // How probably a pulse is seen.
   [[nodiscard]] static double seen_probability(double energy) noexcept;

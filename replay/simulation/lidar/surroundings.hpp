@@ -36,8 +36,9 @@ class Surroundings {
  private:
   SceneAt scene_;
   double beam_radius_;
-  // One for so many rings that are neighbours: about as high as eight firings are wide.
-  static constexpr std::size_t kRings = 2;
+  // One for so many rings that are neighbours: with more of them rays are tried on more, with fewer
+  // more is gathered.
+  static constexpr std::size_t kRings = 4;
   std::array<std::size_t, kLasers> shaft_{};
   std::array<InShaft, kLasers / kRings> in_shafts_;
 };

@@ -116,8 +116,10 @@ void SceneAt::try_on(std::uint32_t thing, const Ray& ray, Nearest& nearest) cons
 }
 
 bool SceneAt::settle(const Ray& ray, const Nearest& nearest, Hit& hit) const noexcept {
-  hit = {};
-  if (nearest.primitive() == nullptr) return false;
+  if (nearest.primitive() == nullptr) {
+    hit = {};
+    return false;
+  }
   hit.distance_m = nearest.distance_m();
   hit.surface = nearest.primitive()->surface;
   const Shape& shape = nearest.primitive()->shape;
