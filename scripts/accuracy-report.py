@@ -67,14 +67,18 @@ def by_variant(rows, field="f"):
     return table(["method"] + variants, lines)
 
 
-def dynamic_note(rows):
+def crowds(rows):
+    """How much of what is seen is people, by their number; in the last column upright and tilted."""
     robust = [r for r in rows if r["method"] == "robust"]
-    return ", ".join(f"{v} people: {weighted_dynamic([r for r in robust if r['variant'] == v]):.0%}"
-                     for v in unique(rows, "variant"))
-
-
-def weighted_dynamic(rows):
-    return sum(r["dynamic"] for r in rows) / len(rows)
+    lines = []
+    for scene in unique(rows, "scene"):
+        cells = []
+        for variant in unique(rows, "variant"):
+            shares = [r["dynamic"] for r in robust if (r["scene"], r["variant"]) == (scene, variant)]
+            cells.append(f"{sum(shares) / len(shares):.0%}")
+        lines.append([scene] + cells + [" / ".join(f"{share:.0%}" for share in shares)])
+    most = f"{unique(rows, 'variant')[-1]} at " + " / ".join(f"{t}°" for t in unique(rows, "tilt"))
+    return table(["scene"] + unique(rows, "variant") + [most], lines)
 
 
 def mirror(rows):
@@ -170,7 +174,8 @@ def report(data):
     values = {"overall": overall(data["scenes"]), "misses": misses(data), "behind": behind(data["scenes"]),
               "worst_places": worst_places(data["scenes"]), "by_scene": by_scene(data["scenes"]),
               "ghosts": by_variant(data["ghosts"]), "gravity": by_variant(data["gravity"]),
-              "dynamic": by_variant(data["dynamic"]), "dynamic_note": dynamic_note(data["dynamic"]),
+              "dynamic": by_variant(data["dynamic"]), "crowds": crowds(data["dynamic"]),
+              "dynamic_office": by_variant([r for r in data["dynamic"] if r["scene"] == "office"]),
               "mirror": mirror(data["mirror"]), "ablation": ablation(data["ablation"])}
     for name in ("office", "cafe", "moving"):
         rows = data[name]

@@ -142,7 +142,8 @@ std::vector<Experiment> experiments(const ExperimentOptions& o) {
                 [](Run& run, double degrees) {
                   run.options.simulation.imu_errors.gravity = Degrees{degrees};
                 }),
-      disturbed(o, "dynamic", {{"0", 0}, {"10", 10}, {"20", 20}, {"40", 40}},
+      disturbed(o, "dynamic",
+                {{"0", 0}, {"10", 10}, {"20", 20}, {"40", 40}, {"60", 60}, {"80", 80}},
                 [](Run& run, double people) { run.people = static_cast<int>(people); }),
       mirror(o),
       ablation(o),

@@ -39,6 +39,9 @@ class Random {
 
   [[nodiscard]] std::uint64_t bits() noexcept { return detail::mixed(state_ += detail::kGamma); }
 
+  // As if so many numbers of bits() had been drawn.
+  void skip(unsigned count) noexcept { state_ += count * detail::kGamma; }
+
   // 0 ≤ u < 1.
   [[nodiscard]] double uniform() noexcept { return static_cast<double>(bits() >> 11U) * 0x1p-53; }
   [[nodiscard]] double uniform(double low, double high) noexcept {

@@ -43,7 +43,7 @@ Beam::Beam(Radians divergence) : radius_(0.5 * divergence.value) {
   }
 }
 
-Beam::UprightSides Beam::upright_sides(const Column& column, const SceneAt& scene) const noexcept {
+Beam::UprightSides Beam::upright_sides(const Column& column) const noexcept {
   UprightSides found{};
   if (radius_ <= 0.0) return found;
   const Neighbourhood around{column, column, column};
@@ -52,33 +52,34 @@ Beam::UprightSides Beam::upright_sides(const Column& column, const SceneAt& scen
       const std::size_t other = side == kBelow ? below_[laser] : above_[laser];
       if (other == kNone || same_plane(column, laser, column, other)) continue;
       Rims rims;
-      if (finds_edge(around, laser, 1U << side, scene, rims)) found[laser] |= 1U << side;
+      if (finds_edge(around, laser, 1U << side, rims)) found[laser] |= 1U << side;
     }
   }
   return found;
 }
 
-void Beam::add_echoes(const Neighbourhood& around, std::size_t laser, Sides upright,
-                      const SceneAt& scene, const Optics& optics, Echoes& echoes) const noexcept {
+Sides Beam::level_sides(const Neighbourhood& around, std::size_t laser) const noexcept {
+  if (radius_ <= 0.0) return 0;
+  Sides sides = 0;
+  if (!same_plane(around.own, laser, around.before, laser)) sides |= 1U << kBefore;
+  if (!same_plane(around.own, laser, around.next, laser)) sides |= 1U << kNext;
+  return sides;
+}
+
+void Beam::add_echoes(const Neighbourhood& around, std::size_t laser, Sides sides,
+                      const Optics& optics, Echoes& echoes) const noexcept {
   const Column& own = around.own;
-  Sides sides = upright;
-  if (radius_ > 0.0) {
-    if (!same_plane(own, laser, around.before, laser)) sides |= 1U << kBefore;
-    if (!same_plane(own, laser, around.next, laser)) sides |= 1U << kNext;
-  }
-  if (sides == 0) {
-    if (own.met[laser]) optics.trace(scene, own.rays[laser], own.hits[laser], 1.0, echoes);
-    return;
-  }
   Rims rims;
-  const bool edge = finds_edge(around, laser, sides, scene, rims);
+  const bool edge = finds_edge(around, laser, sides, rims);
   if (own.met[laser]) {
-    optics.trace(scene, own.rays[laser], own.hits[laser], edge ? kMiddleShare : 1.0, echoes);
+    optics.trace(*own.around, laser, own.rays[laser], own.hits[laser], edge ? kMiddleShare : 1.0,
+                 echoes);
   }
   if (!edge) return;
   for (std::size_t side = 0; side < kSides; ++side) {
-    if (!rims[side].cast) cast(around, laser, side, scene, rims[side]);
-    if (rims[side].met) optics.trace(scene, rims[side].ray, rims[side].hit, kRimShare, echoes);
+    if (!rims[side].cast) cast(around, laser, side, rims[side]);
+    if (rims[side].met)
+      optics.trace(*own.around, laser, rims[side].ray, rims[side].hit, kRimShare, echoes);
   }
 }
 
@@ -91,11 +92,11 @@ const Ray* Beam::neighbour(const Neighbourhood& around, std::size_t laser,
 }
 
 bool Beam::finds_edge(const Neighbourhood& around, std::size_t laser, Sides sides,
-                      const SceneAt& scene, Rims& rims) const noexcept {
+                      Rims& rims) const noexcept {
   for (std::size_t side = 0; side < kSides; ++side) {
     if ((sides & (1U << side)) == 0) continue;
     Rim& rim = rims[side];
-    cast(around, laser, side, scene, rim);
+    cast(around, laser, side, rim);
     if (!same_plane(around.own, laser, rim.met, rim.hit,
                     rim.ray.origin + rim.hit.distance_m * rim.ray.direction)) {
       return true;
@@ -107,7 +108,7 @@ bool Beam::finds_edge(const Neighbourhood& around, std::size_t laser, Sides side
 // Towards the neighbour; of the highest and the lowest ring, that have none on one side, away from
 // the opposite one.
 void Beam::cast(const Neighbourhood& around, std::size_t laser, std::size_t side,
-                const SceneAt& scene, Rim& rim) const noexcept {
+                Rim& rim) const noexcept {
   const Ray& middle = around.own.rays[laser];
   const Ray* towards = neighbour(around, laser, side);
   const double sign = towards != nullptr ? 1.0 : -1.0;
@@ -118,11 +119,7 @@ void Beam::cast(const Neighbourhood& around, std::size_t laser, std::size_t side
   rim.cast = true;
   rim.ray = middle;
   rim.ray.direction = (middle.direction + aside).normalized();
-  const double expected =
-      around.own.met[laser]
-          ? distance_to_plane(rim.ray, around.own.hits[laser].normal, around.own.points[laser])
-          : kUnknownDistance;
-  rim.met = cast_expecting(scene, rim.ray, expected, rim.hit);
+  rim.met = around.own.around->cast(laser, rim.ray, rim.hit);
 }
 
 }  // namespace convexcut::simulation

@@ -29,15 +29,16 @@ class Beam {
   // Below and above, of each laser of a column: where the neighbouring ring met another plane, and
   // the rim towards it does so too.
   using UprightSides = std::array<Sides, Column::kLasers>;
-  [[nodiscard]] UprightSides upright_sides(const Column& column,
-                                           const SceneAt& scene) const noexcept;
+  [[nodiscard]] UprightSides upright_sides(const Column& column) const noexcept;
 
-  // Adds the echoes of the laser's beam. Where the firings before and after met the plane that it
-  // met itself, and `upright` is empty, the middle ray stands for all of it. Elsewhere the rim
-  // towards those sides is asked; only when it meets another plane is the beam made of the middle
-  // and four rays of its rim.
-  void add_echoes(const Neighbourhood& around, std::size_t laser, Sides upright,
-                  const SceneAt& scene, const Optics& optics, Echoes& echoes) const noexcept;
+  // Where the firings before and after did not meet the plane that the laser met itself. None here,
+  // and none of the upright ones: the middle ray stands for all of the beam.
+  [[nodiscard]] Sides level_sides(const Neighbourhood& around, std::size_t laser) const noexcept;
+
+  // Adds the echoes of the laser's beam. The rim towards the sides is asked; only when it meets
+  // another plane is the beam made of the middle and four rays of its rim.
+  void add_echoes(const Neighbourhood& around, std::size_t laser, Sides sides,
+                  const Optics& optics, Echoes& echoes) const noexcept;
 
  private:
   // Opposites are i, i ^ 1.
@@ -60,8 +61,8 @@ class Beam {
   [[nodiscard]] const Ray* neighbour(const Neighbourhood& around, std::size_t laser,
                                      std::size_t side) const noexcept;
   [[nodiscard]] bool finds_edge(const Neighbourhood& around, std::size_t laser, Sides sides,
-                                const SceneAt& scene, Rims& rims) const noexcept;
-  void cast(const Neighbourhood& around, std::size_t laser, std::size_t side, const SceneAt& scene,
+                                Rims& rims) const noexcept;
+  void cast(const Neighbourhood& around, std::size_t laser, std::size_t side,
             Rim& rim) const noexcept;
 
   double radius_;                                     // of the beam at 1 m

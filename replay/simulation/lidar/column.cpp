@@ -12,19 +12,7 @@ namespace {
 constexpr double kFullTurnCentidegrees = 36000.0;
 constexpr std::int64_t kOneQ32 = std::int64_t{1} << 32;
 
-// Beyond what is expected rays are followed only when nothing is there.
-constexpr double kExpectationSlack = 0.01;
-
 }  // namespace
-
-bool cast_expecting(const SceneAt& scene, const Ray& ray, double distance_m, Hit& hit) noexcept {
-  if (distance_m > 0.0 && distance_m < ray.max_distance_m) {
-    Ray shorter = ray;
-    shorter.max_distance_m = distance_m + kExpectationSlack;
-    if (scene.cast(shorter, hit)) return true;
-  }
-  return scene.cast(ray, hit);
-}
 
 ColumnCaster::ColumnCaster(const Scene& scene, const RigMotion& motion, const LidarOptions& options)
     : motion_(motion),
@@ -33,7 +21,8 @@ ColumnCaster::ColumnCaster(const Scene& scene, const RigMotion& motion, const Li
       centidegrees_per_firing_(options.rotor_hz * kFullTurnCentidegrees *
                                (static_cast<double>(kFiringPeriod.count()) * 1e-9)),
       first_centidegrees_(options.start_azimuth.value * 100.0),
-      scenes_{scene.at(Duration{0}), scene.at(Duration{0})} {
+      blocks_{Block{-1, {scene, 0.5 * options.divergence.value}, {}},
+              Block{-1, {scene, 0.5 * options.divergence.value}, {}}} {
   const velodyne::Model& model = velodyne::model_of(velodyne::ModelId::hdl32e);
   for (std::size_t laser = 0; laser < Column::kLasers; ++laser) {
     const velodyne::SinCos elevation = velodyne::sin_cos(
@@ -70,16 +59,29 @@ ColumnCaster::Place ColumnCaster::place(std::int64_t firing) const noexcept {
 const Column& ColumnCaster::column(std::int64_t firing) {
   Column& column = columns_[static_cast<std::size_t>((firing + 3) % 3)];
   if (column.firing == firing) return column;
+  const Block& own = block(block_of(firing));
   column.firing = firing;
-  aim(column);
+  column.around = &own.around;
+  column.rays = own.rays[static_cast<std::size_t>((firing + kFiringsPerBlock) % kFiringsPerBlock)];
   cast(column);
   return column;
 }
 
+const ColumnCaster::Block& ColumnCaster::block(std::int64_t number) {
+  Block& block = blocks_[static_cast<std::size_t>(number & 1)];
+  if (block.number == number) return block;
+  block.number = number;
+  const std::int64_t first = (number - 1) * kFiringsPerBlock;
+  for (std::size_t i = 0; i < block.rays.size(); ++i) {
+    aim(first + static_cast<std::int64_t>(i), block.rays[i]);
+  }
+  block.around.move_to(time_of(first), block.rays);
+  return block;
+}
+
 // Between the rig's places at this firing and at the next one everything moves along straight
 // lines: 46 µs at 300 °/s leave 1e-8 of that unsaid.
-void ColumnCaster::aim(Column& column) {
-  const std::int64_t firing = column.firing;
+void ColumnCaster::aim(std::int64_t firing, std::array<Ray, Column::kLasers>& rays) {
   const Place begin = placed_firing_ == firing ? placed_ : place(firing);
   placed_ = place(firing + 1);
   placed_firing_ = firing + 1;
@@ -94,29 +96,16 @@ void ColumnCaster::aim(Column& column) {
     // REP-103: x at azimuth 0, y to the left; the azimuth grows clockwise.
     const Vec3 beam_lidar(cosine * at.cos, -cosine * at.sin, sine);
     const double share = static_cast<double>(share_q32_[laser]) * 0x1p-32;
-    column.rays[laser].origin = begin.position_world + share * move;
-    column.rays[laser].direction =
-        begin.world_from_lidar * beam_lidar + share * (turn * beam_lidar);
+    rays[laser].origin = begin.position_world + share * move;
+    rays[laser].direction = begin.world_from_lidar * beam_lidar + share * (turn * beam_lidar);
   }
 }
 
 void ColumnCaster::cast(Column& column) {
-  const std::int64_t step = scene_step(column.firing);
-  const auto which = static_cast<std::size_t>(step & 1);
-  if (scene_steps_[which] != step) {
-    scene_steps_[which] = step;
-    scenes_[which].move_to(time_of((step - 1) * kFiringsPerSceneStep));
-  }
-  const Column& before = columns_[static_cast<std::size_t>((column.firing + 2) % 3)];
-  const bool has_before = before.firing == column.firing - 1;
   for (std::size_t laser = 0; laser < Column::kLasers; ++laser) {
     const Ray& ray = column.rays[laser];
     Hit& hit = column.hits[laser];
-    const double expected =
-        has_before && before.met[laser]
-            ? distance_to_plane(ray, before.hits[laser].normal, before.points[laser])
-            : kUnknownDistance;
-    const bool met = cast_expecting(scenes_[which], ray, expected, hit);
+    const bool met = column.around->cast(laser, ray, hit);
     column.met[laser] = met;
     if (met) column.points[laser] = ray.origin + hit.distance_m * ray.direction;
   }

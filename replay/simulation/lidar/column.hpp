@@ -12,6 +12,7 @@
 #include "core/time.hpp"
 #include "replay/simulation/lidar/lidar_options.hpp"
 #include "replay/simulation/lidar/simulated_firing.hpp"
+#include "replay/simulation/lidar/surroundings.hpp"
 #include "replay/simulation/rig/rig_motion.hpp"
 #include "replay/simulation/scene/scene.hpp"
 
@@ -22,21 +23,12 @@ struct Column {
   static constexpr std::int64_t kUnknown = -1'000'000;
 
   std::int64_t firing = kUnknown;
-  std::array<Ray, kLasers> rays;  // in firing order
+  const Surroundings* around = nullptr;  // that it was cast in
+  std::array<Ray, kLasers> rays;         // in firing order
   std::array<Hit, kLasers> hits;
   std::array<Vec3, kLasers> points;  // the hits' places
   std::bitset<kLasers> met;
 };
-
-// Where a ray meets a plane, along its direction; meaningless for one that is parallel.
-[[nodiscard]] inline double distance_to_plane(const Ray& ray, const Vec3& normal,
-                                              const Vec3& point) noexcept {
-  return normal.dot(point - ray.origin) / normal.dot(ray.direction);
-}
-inline constexpr double kUnknownDistance = -1.0;
-
-// SceneAt::cast, faster where the distance is what was expected.
-bool cast_expecting(const SceneAt& scene, const Ray& ray, double distance_m, Hit& hit) noexcept;
 
 // When a firing is, where the rotor is then, and the columns of three firings in a row. One thread.
 class ColumnCaster {
@@ -53,10 +45,6 @@ class ColumnCaster {
 
   // Stays until the column three firings before or behind it is asked for.
   const Column& column(std::int64_t firing);
-  // The scene that the column was cast in; of the columns that are kept.
-  [[nodiscard]] const SceneAt& scene_of(const Column& column) const noexcept {
-    return scenes_[static_cast<std::size_t>(scene_step(column.firing) & 1)];
-  }
 
  private:
   struct Place {
@@ -64,24 +52,29 @@ class ColumnCaster {
     Eigen::Matrix3d world_from_lidar = Eigen::Matrix3d::Identity();
   };
 
-  // Movers are placed anew every eight firings: 369 µs, in which somebody who walks goes 0.5 mm.
-  static constexpr std::int64_t kFiringsPerSceneStep = 8;
-  [[nodiscard]] static std::int64_t scene_step(std::int64_t firing) noexcept {
-    return (firing + kFiringsPerSceneStep) / kFiringsPerSceneStep;  // firing ≥ −1
+  static constexpr std::int64_t kFiringsPerBlock = Surroundings::kFirings;
+  // The firings that have their surroundings in common.
+  struct Block {
+    std::int64_t number = -1;
+    Surroundings around;
+    Surroundings::Rays rays;
+  };
+  [[nodiscard]] static std::int64_t block_of(std::int64_t firing) noexcept {
+    return (firing + kFiringsPerBlock) / kFiringsPerBlock;  // firing ≥ −1
   }
 
   [[nodiscard]] std::int64_t azimuth_step(std::int64_t firing) const noexcept;
   [[nodiscard]] Place place(std::int64_t firing) const noexcept;
-  void aim(Column& column);
-  void cast(Column& column);
+  const Block& block(std::int64_t number);
+  void aim(std::int64_t firing, std::array<Ray, Column::kLasers>& rays);
+  static void cast(Column& column);
 
   RigMotion motion_;
   DeviceClock clock_;
   bool dual_;
   double centidegrees_per_firing_;
   double first_centidegrees_;
-  std::array<SceneAt, 2> scenes_;
-  std::array<std::int64_t, 2> scene_steps_{-1, -1};
+  std::array<Block, 2> blocks_;
   struct Elevation {
     double cos = 1.0;
     double sin = 0.0;

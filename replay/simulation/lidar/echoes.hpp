@@ -5,11 +5,16 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include <Eigen/Core>
+
+#include "replay/simulation/lidar/column.hpp"
 #include "replay/simulation/lidar/lidar_options.hpp"
+#include "replay/simulation/lidar/surroundings.hpp"
 #include "replay/simulation/scene/ray.hpp"
 #include "replay/simulation/scene/scene.hpp"
 
@@ -38,18 +43,40 @@ class Echoes {
   std::size_t count_ = 0;
 };
 
+// What a column's middle rays send back where they meet diffuse surfaces and stand for the whole
+// beam, which is nearly everywhere: all at once, several to an instruction.
+struct PlainEchoes {
+  using Numbers = Eigen::Array<double, Column::kLasers, 1>;
+  Numbers energy;
+  Numbers brightness;
+  Numbers seen;                           // how probably
+  std::bitset<Column::kLasers> is_plain;  // false: nothing, glass or a mirror is met
+};
+
 class Optics {
  public:
   Optics(const Scene& scene, const LidarOptions& options);
 
-  // Adds the echoes of a ray, whose first hit is known, with `weight` of the pulse's energy.
-  void trace(const SceneAt& scene, const Ray& ray, const Hit& hit, double weight,
-             Echoes& echoes) const noexcept;
+  // Adds the echoes of a ray of the laser's beam, whose first hit is known, with `weight` of the
+  // pulse's energy.
+  void trace(const Surroundings& around, std::size_t laser, const Ray& ray, const Hit& hit,
+             double weight, Echoes& echoes) const noexcept;
 
-  // Whether light that arrives at this surface goes on from there.
-  [[nodiscard]] bool is_diffuse(const Hit& hit) const noexcept {
-    return surfaces_[hit.surface].material == Material::diffuse;
+  void scatter(const Column& column, PlainEchoes& out) const noexcept;
+  // The one of a laser for which is_plain is true.
+  [[nodiscard]] Echo plain_echo(const Column& column, const PlainEchoes& all,
+                                std::size_t laser) const noexcept {
+    const auto i = static_cast<Eigen::Index>(laser);
+    const Hit& hit = column.hits[laser];
+    return {.range_m = hit.distance_m,
+            .energy = all.energy[i],
+            .brightness = all.brightness[i],
+            .surface = hit.surface,
+            .label = surfaces_[hit.surface].label};
   }
+
+  // How probably a pulse is seen.
+  [[nodiscard]] static double seen_probability(double energy) noexcept;
 
   // Sorts the echoes by range and joins those within a pulse length, each group to its weighted
   // mean, in place; how many pulses there are.
@@ -62,10 +89,11 @@ class Optics {
     std::uint8_t flags = 0;
     std::uint32_t mirror = kNoSurface;  // the first one on the way
     int turns = 0;                      // surfaces that it has passed
+    std::size_t laser = 0;              // in whose beam it is until it is mirrored
   };
-  void follow(const SceneAt& scene, const Ray& ray, const Hit& hit, const Light& light,
+  void follow(const Surroundings& around, const Ray& ray, const Hit& hit, const Light& light,
               Echoes& echoes) const noexcept;
-  void cast_on(const SceneAt& scene, const Ray& ray, const Light& light,
+  void cast_on(const Surroundings& around, const Ray& ray, const Light& light,
                Echoes& echoes) const noexcept;
   [[nodiscard]] Echo scattered(const Hit& hit, double cosine, const Light& light) const noexcept;
 

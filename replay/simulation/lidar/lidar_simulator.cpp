@@ -12,10 +12,6 @@ namespace {
 constexpr double kRangeUnit = 0.002;  // m
 constexpr double kSpeckle = 4.0;      // of an intensity of 0 … 100
 
-// Where half of the pulses of a surface of reflectivity ρ, seen at a right angle, come back: at
-// kHalfRange·√ρ. 40 m for one of 10 %, 113 m for 80 %.
-constexpr double kHalfRange = 126.5;
-
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
@@ -50,7 +46,8 @@ void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
   const Column& before = caster_.column(number - 1);
   const Column& own = caster_.column(number);
   const Column& next = caster_.column(number + 1);
-  const SceneAt& scene = caster_.scene_of(own);
+  const Neighbourhood around{before, own, next};
+  optics_.scatter(own, plain_);
   out.index = firing;
   out.since_start = caster_.time_of(number);
   out.azimuth = caster_.rotor(number);
@@ -62,9 +59,19 @@ void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
     Random random(random_, firing * SimulatedFiring::kLasers + laser);
     const Chance chance = draw(random);
     if (chance.lost) continue;
-    echoes_.clear();
-    beam_.add_echoes({before, own, next}, laser, upright_[laser], scene, optics_, echoes_);
-    const Seen seen = receive(echoes_.all().first(optics_.join(echoes_)), random);
+    const Sides sides = upright_[laser] | beam_.level_sides(around, laser);
+    Echo plain;
+    Seen seen;
+    if (sides == 0 && plain_.is_plain[laser]) {
+      plain = optics_.plain_echo(own, plain_, laser);
+      listen(plain, plain_.seen[static_cast<Eigen::Index>(laser)], random, seen);
+    } else {
+      echoes_.clear();
+      beam_.add_echoes(around, laser, sides, optics_, echoes_);
+      for (const Echo& pulse : echoes_.all().first(optics_.join(echoes_))) {
+        listen(pulse, Optics::seen_probability(pulse.energy), random, seen);
+      }
+    }
     if (seen.strongest == nullptr) continue;
     // Drawn first, so that a dual-return sensor sees what a single-return one sees, and more.
     const SimulatedReturn strongest = returned(*seen.strongest, chance, random);
@@ -83,36 +90,33 @@ void LidarSimulator::fire(std::uint64_t firing, SimulatedFiring& out) {
 void LidarSimulator::look_below_and_above(std::int64_t firing) {
   if (looked_at_ == firing) return;
   looked_at_ = firing;
-  const Column& column = caster_.column(firing);
-  upright_ = beam_.upright_sides(column, caster_.scene_of(column));
+  upright_ = beam_.upright_sides(caster_.column(firing));
 }
 
 LidarSimulator::Chance LidarSimulator::draw(Random& random) const noexcept {
   Chance chance;
   chance.lost = random.chance(options_.dropout);
-  chance.ghost = random.chance(options_.ghosts);
-  chance.ghost_place = random.uniform();
+  if (options_.ghosts > 0.0) {
+    chance.ghost = random.chance(options_.ghosts);
+    chance.ghost_place = random.uniform();
+  } else {
+    random.skip(2);
+  }
   chance.speckle = random.uniform(-kSpeckle, kSpeckle);
   return chance;
 }
 
-LidarSimulator::Seen LidarSimulator::receive(std::span<const Echo> pulses,
-                                             Random& random) const noexcept {
-  Seen seen;
-  for (const Echo& pulse : pulses) {
-    const double signal = pulse.energy * (kHalfRange * kHalfRange);
-    const double probability = signal * signal / (1.0 + signal * signal);
-    if (options_.attenuation && !random.chance(probability)) continue;
-    if (pulse.range_m < options_.min_range_m || pulse.range_m > options_.max_range_m) continue;
-    seen.last = &pulse;
-    if (seen.strongest == nullptr || pulse.energy > seen.strongest->energy) {
-      seen.second = seen.strongest;
-      seen.strongest = &pulse;
-    } else if (seen.second == nullptr || pulse.energy > seen.second->energy) {
-      seen.second = &pulse;
-    }
+void LidarSimulator::listen(const Echo& pulse, double probability, Random& random,
+                            Seen& seen) const noexcept {
+  if (options_.attenuation && !random.chance(probability)) return;
+  if (pulse.range_m < options_.min_range_m || pulse.range_m > options_.max_range_m) return;
+  seen.last = &pulse;
+  if (seen.strongest == nullptr || pulse.energy > seen.strongest->energy) {
+    seen.second = seen.strongest;
+    seen.strongest = &pulse;
+  } else if (seen.second == nullptr || pulse.energy > seen.second->energy) {
+    seen.second = &pulse;
   }
-  return seen;
 }
 
 SimulatedReturn LidarSimulator::returned(const Echo& echo, const Chance& chance,

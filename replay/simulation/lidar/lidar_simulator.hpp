@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "core/time.hpp"
 #include "replay/simulation/lidar/beam.hpp"
@@ -61,7 +60,8 @@ class LidarSimulator {
   void look_below_and_above(std::int64_t firing);
 
   [[nodiscard]] Chance draw(Random& random) const noexcept;
-  [[nodiscard]] Seen receive(std::span<const Echo> pulses, Random& random) const noexcept;
+  // The next pulse of a shot, the nearest first.
+  void listen(const Echo& pulse, double probability, Random& random, Seen& seen) const noexcept;
   [[nodiscard]] SimulatedReturn returned(const Echo& echo, const Chance& chance,
                                          Random& random) const noexcept;
 
@@ -72,6 +72,7 @@ class LidarSimulator {
   Beam beam_;
   std::int64_t looked_at_ = Column::kUnknown;
   Beam::UprightSides upright_{};  // as of that firing
+  PlainEchoes plain_;  // of the firing
   Echoes echoes_;
 };
 

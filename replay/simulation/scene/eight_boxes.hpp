@@ -10,15 +10,11 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 #include "replay/simulation/scene/bounds.hpp"
+#include "replay/simulation/scene/four_floats.hpp"
 #include "replay/simulation/scene/ray.hpp"
 
 namespace convexcut::simulation {
@@ -47,12 +43,14 @@ struct EightBoxes {
       sides[1][axis][lane] = static_cast<float>(bounds.high[index] + kPaddingM);
     }
   }
+  void copy(std::size_t lane, const EightBoxes& from, std::size_t from_lane) noexcept {
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        sides[side][axis][lane] = from.sides[side][axis][from_lane];
+      }
+    }
+  }
 };
-
-// Half of the eight: what every processor has registers for. The compilers make one instruction of
-// each operation on these.
-using Floats = float __attribute__((vector_size(16)));
-using Masks = std::int32_t __attribute__((vector_size(16)));  // all bits, or none
 
 // A ray as the boxes need it.
 class BoxRay {
@@ -60,10 +58,7 @@ class BoxRay {
   explicit BoxRay(const Ray& ray) noexcept {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto index = static_cast<Eigen::Index>(axis);
-      // Not 0: the interval of an axis that is not moved along is then everything or nothing.
-      constexpr double kLeast = 1e-20;
-      const double d = ray.direction[index];
-      const double safe = std::abs(d) < kLeast ? kLeast : d;
+      const double safe = not_zero(ray.direction[index]);
       backwards_[axis] = safe < 0.0 ? 1 : 0;
       origin_[axis] = all(static_cast<float>(ray.origin[index]));
       inverse_[axis] = all(static_cast<float>(1.0 / safe));
@@ -72,18 +67,20 @@ class BoxRay {
     least_ = all(std::max(least, 0.0F));
   }
 
-  // Calls met(lane, where the ray enters, ≥ 0) for each box that the ray may meet before `limit`.
+  // Calls met(lane, where the ray enters, ≥ 0) for each of the first `lanes` boxes that the ray may
+  // meet before `limit`.
   template <class Met>
-  void meet(const EightBoxes& boxes, float limit, Met&& met) const noexcept {
+  void meet(const EightBoxes& boxes, float limit, Met&& met,
+            std::size_t lanes = EightBoxes::kLanes) const noexcept {
     unsigned hits = 0;
     EightBoxes::Lanes enters;
-    for (std::size_t first = 0; first < EightBoxes::kLanes; first += 4) {
+    for (std::size_t first = 0; first < lanes; first += 4) {
       Floats enter = least_;
       Floats leave = all(limit);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t backwards = backwards_[axis];
-        const Floats near = load(boxes.sides[backwards][axis], first);
-        const Floats far = load(boxes.sides[1 - backwards][axis], first);
+        const Floats near = load(boxes.sides[backwards][axis].data() + first);
+        const Floats far = load(boxes.sides[1 - backwards][axis].data() + first);
         enter = larger(enter, (near - origin_[axis]) * inverse_[axis]);
         leave = smaller(leave, (far - origin_[axis]) * inverse_[axis]);
       }
@@ -96,33 +93,20 @@ class BoxRay {
     }
   }
 
+  // The interval of an axis that is not moved along is then everything or nothing.
+  [[nodiscard]] static double not_zero(double direction) noexcept {
+    constexpr double kLeast = 1e-20;
+    return std::abs(direction) < kLeast ? kLeast : direction;
+  }
   // What is not nearer than this is not nearer than `distance_m`.
   [[nodiscard]] static float limit_of(double distance_m) noexcept {
     return static_cast<float>(distance_m) * (1.0F + kRelativeSlack) + kSlackM;
   }
 
- private:
   static constexpr float kRelativeSlack = 1e-6F;
-  static constexpr float kSlackM = 1e-4F;
 
-  static Floats all(float value) noexcept { return Floats{value, value, value, value}; }
-  static Floats larger(Floats a, Floats b) noexcept { return a > b ? a : b; }
-  static Floats smaller(Floats a, Floats b) noexcept { return a < b ? a : b; }
-  // Bit 0 for the first lane, and so on.
-  static unsigned bits_of(Masks masks) noexcept {
-#ifdef __SSE2__
-    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(masks)));
-#else
-    unsigned bits = 0;
-    for (unsigned lane = 0; lane < 4; ++lane) bits |= masks[lane] != 0 ? 1U << lane : 0U;
-    return bits;
-#endif
-  }
-  static Floats load(const EightBoxes::Lanes& lanes, std::size_t first) noexcept {
-    Floats floats;
-    std::memcpy(&floats, lanes.data() + first, sizeof floats);
-    return floats;
-  }
+ private:
+  static constexpr float kSlackM = 1e-4F;
 
   std::array<Floats, 3> origin_;
   std::array<Floats, 3> inverse_;

@@ -3,7 +3,6 @@
 // How a ray finds its shape; geometry_builder.cpp makes the hierarchy.
 #include "replay/simulation/scene/geometry.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -21,46 +20,16 @@ Entry entry_of(float enter, std::uint32_t child) noexcept {
   return Entry{std::bit_cast<std::uint32_t>(enter)} << 32U | child;
 }
 
-// Deeper than any hierarchy that the builder makes, with seven waiting children a level.
-using Stack = std::array<Entry, 512>;
-
-// What is nearest on a ray so far.
-struct Nearest {
-  Nearest(const Ray& cast_ray, const Hit& hit)
-      : ray(cast_ray), distance_m(std::min(hit.distance_m, cast_ray.max_distance_m)) {}
-
-  void try_on(const Primitive& primitive) noexcept {
-    const double distance =
-        std::visit([&](const auto& shape) { return shape.meet(ray, distance_m); }, primitive.shape);
-    if (distance >= distance_m) return;
-    distance_m = distance;
-    met = &primitive;
-  }
-  const Primitive* finish(Hit& hit) const noexcept {
-    if (met == nullptr) return nullptr;
-    hit.distance_m = distance_m;
-    hit.surface = met->surface;
-    return met;
-  }
-
-  const Ray& ray;
-  double distance_m;
-  const Primitive* met = nullptr;
-};
-
 }  // namespace
 
-const Primitive* Geometry::cast_on_each(const Ray& ray, Hit& hit) const noexcept {
-  Nearest nearest(ray, hit);
-  for (const Primitive& primitive : primitives_) nearest.try_on(primitive);
-  return nearest.finish(hit);
+void Geometry::cast_on_each(const Ray& ray, Nearest& nearest) const noexcept {
+  for (std::uint32_t i = 0; i < primitives_.size(); ++i) nearest.try_on(ray, primitives_[i], i);
 }
 
-const Primitive* Geometry::cast(const Ray& ray, const BoxRay& box_ray, Hit& hit) const noexcept {
-  if (nodes_.empty()) return nullptr;
-  Nearest nearest(ray, hit);
-  float limit = BoxRay::limit_of(nearest.distance_m);
-  Stack stack;  // not cleared: that takes longer than all the rest
+void Geometry::cast(const Ray& ray, const BoxRay& box_ray, Nearest& nearest) const noexcept {
+  if (nodes_.empty()) return;
+  float limit = BoxRay::limit_of(nearest.distance_m());
+  std::array<Entry, kMostWaiting> stack;  // not cleared: that takes longer than all the rest
   stack[0] = entry_of(0.0F, Node::kIsNode);
   std::size_t size = 1;
   while (size > 0) {
@@ -68,8 +37,9 @@ const Primitive* Geometry::cast(const Ray& ray, const BoxRay& box_ray, Hit& hit)
     if (entry > entry_of(limit, ~std::uint32_t{0})) continue;
     const auto child = static_cast<std::uint32_t>(entry);
     if ((child & Node::kIsNode) == 0) {
-      nearest.try_on(primitives_[child]);
-      limit = BoxRay::limit_of(nearest.distance_m);
+      if (nearest.try_on(ray, primitives_[child], child)) {
+        limit = BoxRay::limit_of(nearest.distance_m());
+      }
       continue;
     }
     const Node& node = nodes_[child & ~Node::kIsNode];
@@ -82,7 +52,6 @@ const Primitive* Geometry::cast(const Ray& ray, const BoxRay& box_ray, Hit& hit)
       stack[place] = met;
     });
   }
-  return nearest.finish(hit);
 }
 
 Vec3 normal_at(const Shape& shape, const Vec3& p) noexcept {

@@ -11,6 +11,12 @@ namespace {
 // Shapes that share an edge leave no gap: what is this near to an edge belongs to the polygon.
 constexpr double kEdgeToleranceM = 1e-9;
 
+// Whether a number may be this near to what is between two others.
+bool may_touch(double number, double a, double b) noexcept {
+  return number >= std::min(a, b) - 2.0 * kEdgeToleranceM &&
+         number <= std::max(a, b) + 2.0 * kEdgeToleranceM;
+}
+
 double squared_distance(double u, double v, double from_u, double from_v, double to_u,
                         double to_v) noexcept {
   const double along_u = to_u - from_u;
@@ -63,11 +69,16 @@ bool Polygon::contains(double u, double v) const noexcept {
   bool inside = false;
   for (const Edge& edge : edges_) {
     if ((edge.from_v > v) == (edge.to_v > v)) continue;
-    const double part = (v - edge.from_v) / (edge.to_v - edge.from_v);
-    if (u < edge.from_u + part * (edge.to_u - edge.from_u)) inside = !inside;
+    double crossed_u = edge.from_u;
+    if (edge.to_u != edge.from_u) {
+      const double part = (v - edge.from_v) / (edge.to_v - edge.from_v);
+      crossed_u += part * (edge.to_u - edge.from_u);
+    }
+    if (u < crossed_u) inside = !inside;
   }
   if (inside) return true;
   return std::ranges::any_of(edges_, [&](const Edge& e) {
+    if (!may_touch(u, e.from_u, e.to_u) || !may_touch(v, e.from_v, e.to_v)) return false;
     return squared_distance(u, v, e.from_u, e.from_v, e.to_u, e.to_v) <=
            kEdgeToleranceM * kEdgeToleranceM;
   });

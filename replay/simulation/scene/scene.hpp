@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -52,8 +53,12 @@ struct RigPlan {
 };
 
 class BoxRay;
+class InShaft;
+class Nearest;
 struct EightBoxes;
+struct MoverPart;
 struct PartPose;
+struct Shaft;
 
 namespace detail {
 struct SceneData;
@@ -69,6 +74,11 @@ class SceneAt {
   // allocation; the same bits for the same ray and instant.
   bool cast(const Ray& ray, Hit& hit) const noexcept;
 
+  // What the rays of a shaft may meet, for cast() with one of them, which is then faster and gives
+  // the same. Until the scene is moved; reuse `out`, it keeps its memory.
+  void gather(const Shaft& shaft, InShaft& out) const;
+  bool cast(const Ray& ray, const InShaft& in_shaft, Hit& hit) const noexcept;
+
   SceneAt(const SceneAt&);
   SceneAt(SceneAt&&) noexcept;
   SceneAt& operator=(const SceneAt&);
@@ -79,7 +89,9 @@ class SceneAt {
   friend class Scene;
   explicit SceneAt(std::shared_ptr<const detail::SceneData> scene);
   void cast_on_mover(std::size_t index, const Ray& ray, const BoxRay& box_ray,
-                     Hit& hit) const noexcept;
+                     Nearest& nearest) const noexcept;
+  void try_on(std::uint32_t thing, const Ray& ray, Nearest& nearest) const noexcept;
+  bool settle(const Ray& ray, const Nearest& nearest, Hit& hit) const noexcept;
 
   std::shared_ptr<const detail::SceneData> scene_;
   // Where a mover's parts begin in the two lists that follow.
@@ -90,6 +102,7 @@ class SceneAt {
   std::vector<PartPose> poses_;
   std::vector<EightBoxes> part_boxes_;
   std::vector<Slot> slots_;              // by mover
+  std::vector<const MoverPart*> parts_;  // by pose
   std::vector<EightBoxes> mover_boxes_;  // around all parts of each
 };
 

@@ -63,11 +63,12 @@ Flat Flat::placed(const RigidTransform& world_from_local) const noexcept {
 Block::Block(const RigidTransform& world_from_block, Vec3 half_size) noexcept
     : block_from_world_(world_from_block.rotation.conjugate().toRotationMatrix()),
       centre_(world_from_block.translation),
-      half_size_(std::move(half_size)) {}
+      half_size_(std::move(half_size)),
+      is_upright_(block_from_world_ == Eigen::Matrix3d::Identity()) {}
 
 double Block::meet(const Ray& ray, double nearest) const noexcept {
-  const Vec3 origin = block_from_world_ * (ray.origin - centre_);
-  const Vec3 direction = block_from_world_ * ray.direction;
+  const Vec3 origin = turned(ray.origin - centre_);
+  const Vec3 direction = turned(ray.direction);
   double enter = -kNoHit;
   double leave = kNoHit;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -89,7 +90,7 @@ double Block::meet(const Ray& ray, double nearest) const noexcept {
 }
 
 Vec3 Block::normal_at(const Vec3& p) const noexcept {
-  const Vec3 local = block_from_world_ * (p - centre_);
+  const Vec3 local = turned(p - centre_);
   Eigen::Index axis = 0;
   (local.cwiseAbs() - half_size_).maxCoeff(&axis);
   return block_from_world_.row(axis).transpose();

@@ -79,9 +79,14 @@ class Block {
   [[nodiscard]] Block placed(const RigidTransform& world_from_local) const noexcept;
 
  private:
+  [[nodiscard]] Vec3 turned(const Vec3& direction) const noexcept {
+    return is_upright_ ? direction : Vec3(block_from_world_ * direction);
+  }
+
   Eigen::Matrix3d block_from_world_;
   Vec3 centre_;
   Vec3 half_size_;
+  bool is_upright_;  // along the axes: most are
 };
 
 // A cylinder of any direction: closed by two discs, or an open tube, or a part of its mantle.

@@ -19,8 +19,10 @@ namespace convexcut::simulation {
 namespace {
 
 using test::empty_room;
-using test::kEmptyRoom;
+using test::empty_room_text;
+using test::kLidar;
 using test::kRoom;
+using test::room_of;
 using test::scene_of;
 using test::to_side;
 
@@ -106,7 +108,7 @@ TEST(Sensor, IsolatedGhostsAreTheirShareAndLieBeforeAndBehind) {
     ASSERT_EQ(shot.first.label, SurfaceLabel::none);
     ASSERT_EQ(shot.first.surface, kNoSurface);
     ghosts += 1;
-    const double wall = to_side({3, 2, 1.2}, shot.direction_lidar, {0, 0, 0}, kRoom);
+    const double wall = to_side(kLidar, shot.direction_lidar, {0, 0, 0}, kRoom);
     behind += double{shot.first.true_range_m} > wall ? 1 : 0;
   });
   const double shots = kRevolution * 32.0;
@@ -130,15 +132,7 @@ struct Losses {
   double far = 0;
 };
 Losses losses_in_hall(double reflectivity) {
-  const Scene scene = scene_of(R"(
-[rig]
-position = [2.0, 5.0, 2.0]
-[[room]]
-name = "hall"
-min = [0, 0, 0]
-max = [90, 10, 8]
-reflectivity = )" + std::to_string(reflectivity) +
-                               "\n");
+  const Scene scene = scene_of(room_of({90, 10, 8}, {2, 5, 2}, reflectivity));
   LidarOptions options = perfect();
   options.attenuation = true;
   double shots_near = 0;
@@ -171,7 +165,7 @@ TEST(Sensor, NothingIsSeenNearerThanTheLeastRangeOrFartherThanTheMost) {
   std::size_t seen = 0;
   std::size_t hidden = 0;
   for_each_shot(empty_room(), options, kRevolution, [&](const Shot& shot) {
-    const double range = to_side({3, 2, 1.2}, shot.direction_lidar, {0, 0, 0}, kRoom);
+    const double range = to_side(kLidar, shot.direction_lidar, {0, 0, 0}, kRoom);
     if (range > 2.55 && range < 3.95) {
       ASSERT_NE(shot.first.range_2mm, 0);
       ++seen;
@@ -186,7 +180,7 @@ TEST(Sensor, NothingIsSeenNearerThanTheLeastRangeOrFartherThanTheMost) {
 
 // The east wall (x = 8) is a mirror.
 std::string with_wall(const std::string& material, double reflectivity) {
-  return std::string(kEmptyRoom) + R"(
+  return empty_room_text() + R"(
 [[rectangle]]
 name = "pane"
 label = "object"
@@ -201,7 +195,7 @@ TEST(Sensor, AMirrorShowsTheRoomBehindItself) {
   const Scene scene = scene_of(with_wall("mirror", 0.0));
   std::size_t ghosts = 0;
   for_each_shot(scene, perfect(), kRevolution, [&](const Shot& shot) {
-    const Vec3 lidar(3, 2, 1.2);
+    const Vec3& lidar = kLidar;
     const double wall = (7.999 - lidar.x()) / shot.direction_lidar.x();
     const Vec3 at = lidar + wall * shot.direction_lidar;
     const bool in_mirror =
@@ -223,14 +217,7 @@ TEST(Sensor, AMirrorShowsTheRoomBehindItself) {
 }
 
 TEST(Sensor, GlassIsSeenThroughAndMirrorsALittle) {
-  const Scene scene = scene_of(R"(
-[rig]
-position = [3.0, 2.0, 1.2]
-[[room]]
-name = "room"
-min = [0, 0, 0]
-max = [12, 6, 3]
-reflectivity = 0.6
+  const Scene scene = scene_of(room_of({12, 6, 3}, kLidar, 0.6) + R"(
 [[rectangle]]
 name = "pane"
 label = "structure"
@@ -240,7 +227,7 @@ v = [0, 0, 3]
 material = "glass"
 reflectivity = 0.02
 )");
-  const Vec3 lidar(3, 2, 1.2);
+  const Vec3& lidar = kLidar;
   for (const bool dual : {false, true}) {
     LidarOptions options = perfect();
     options.dual = dual;
@@ -281,7 +268,7 @@ reflectivity = 0.02
 // A post before the wall: 0.3 m or 3 m before it.
 std::string with_post(double before_wall) {
   const double x = 8.0 - before_wall;
-  return std::string(kEmptyRoom) + "[[box]]\nname = \"post\"\nlabel = \"object\"\nmin = [" +
+  return empty_room_text() + "[[box]]\nname = \"post\"\nlabel = \"object\"\nmin = [" +
          std::to_string(x - 0.1) + ", 1.5, 0.0]\nmax = [" + std::to_string(x) +
          ", 2.5, 3.0]\nreflectivity = 0.6\n";
 }

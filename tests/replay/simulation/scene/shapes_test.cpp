@@ -20,9 +20,9 @@
 namespace convexcut::simulation {
 namespace {
 
-class Random {
+class Dice {
  public:
-  explicit Random(unsigned seed) : generator_(seed) {}
+  explicit Dice(unsigned seed) : generator_(seed) {}
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(generator_() >> 11U) * 0x1p-53;
   }
@@ -75,7 +75,7 @@ void expect_first_change_of_sign(const Shape& shape, const Solid& solid, const R
 }
 
 void expect_met_as_solid(const Shape& local, const Solid& local_solid, unsigned seed) {
-  Random random(seed);
+  Dice random(seed);
   int hits = 0;
   for (int i = 0; i < 150; ++i) {
     const RigidTransform place = random.place(2.0);
@@ -127,7 +127,7 @@ TEST(Shapes, ClosedCylinderIsMetWhereItsInsideBegins) {
 
 // An open tube is the boundary of the endless solid, between its ends; a part has an angle too.
 TEST(Shapes, TubeAndPartOfItAreMetOnTheirMantleOnly) {
-  Random random(4);
+  Dice random(4);
   int hits = 0;
   int in_part = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -180,7 +180,7 @@ TEST(Shapes, TubeAndPartOfItAreMetOnTheirMantleOnly) {
 }
 
 TEST(Shapes, ParallelogramAndTriangleAreMetWhereTheLinearSystemSays) {
-  Random random(5);
+  Dice random(5);
   int hits = 0;
   for (int i = 0; i < 4000; ++i) {
     const Vec3 corner = random.point(2.0);
@@ -228,7 +228,7 @@ TEST(Shapes, PolygonIsMetWithinItsLoopAndNotInItsHoles) {
   const std::vector<Vec3> outer{{-1, -1, 0},   {1.2, -1, 0}, {1.2, 0.2, 0},
                                 {0.3, 0.2, 0}, {0.3, 1, 0},  {-1, 1.4, 0}};
   const std::vector<Vec3> hole{{-0.7, -0.6, 0}, {-0.7, 0.5, 0}, {-0.2, 0.5, 0}, {-0.2, -0.6, 0}};
-  Random random(6);
+  Dice random(6);
   int in_hole = 0;
   int hits = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -285,15 +285,16 @@ TEST(Shapes, SharedEdgesOfWallsLeaveNoGap) {
         const Vec3 way = target - Vec3(4.0, 3.0, 1.5);
         if (way.norm() == 0.0) continue;
         const Ray ray{Vec3(4.0, 3.0, 1.5), way.normalized()};
-        Hit hit;
-        ASSERT_NE(geometry.cast(ray, BoxRay(ray), hit), nullptr) << target.transpose();
-        EXPECT_NEAR(hit.distance_m, way.norm(), 1e-9);
+        Nearest nearest(ray.max_distance_m);
+        geometry.cast(ray, BoxRay(ray), nearest);
+        ASSERT_NE(nearest.primitive(), nullptr) << target.transpose();
+        EXPECT_NEAR(nearest.distance_m(), way.norm(), 1e-9);
       }
     }
   }
 }
 
-Shape any_shape(Random& random) {
+Shape any_shape(Dice& random) {
   const Vec3 at = random.point(6.0);
   const double size = random.uniform(0.02, 1.5);
   switch (random.index(6)) {
@@ -312,7 +313,7 @@ Shape any_shape(Random& random) {
   }
 }
 
-Ray any_ray(Random& random, int i) {
+Ray any_ray(Dice& random, int i) {
   Ray ray{random.point(8.0), random.direction()};
   if (i % 7 == 0) ray.direction = Vec3::Unit(static_cast<Eigen::Index>(random.index(3)));
   if (i % 7 == 1) ray.direction = -Vec3::Unit(static_cast<Eigen::Index>(random.index(3)));
@@ -322,7 +323,7 @@ Ray any_ray(Random& random, int i) {
 }
 
 TEST(Geometry, HierarchyFindsWhatTryingEveryShapeFinds) {
-  Random random(7);
+  Dice random(7);
   std::size_t hits = 0;
   for (int scene = 0; scene < 60; ++scene) {
     std::vector<Primitive> primitives;
@@ -333,13 +334,13 @@ TEST(Geometry, HierarchyFindsWhatTryingEveryShapeFinds) {
     const Geometry geometry(primitives);
     for (int i = 0; i < 400; ++i) {
       const Ray ray = any_ray(random, i);
-      Hit hit;
-      Hit plain;
-      const bool met = geometry.cast(ray, BoxRay(ray), hit) != nullptr;
-      ASSERT_EQ(met, geometry.cast_on_each(ray, plain) != nullptr);
-      ASSERT_EQ(hit.distance_m, plain.distance_m);
-      ASSERT_EQ(hit.surface, plain.surface);
-      hits += met ? 1U : 0U;
+      Nearest nearest(ray.max_distance_m);
+      Nearest plain(ray.max_distance_m);
+      geometry.cast(ray, BoxRay(ray), nearest);
+      geometry.cast_on_each(ray, plain);
+      ASSERT_EQ(nearest.distance_m(), plain.distance_m());
+      ASSERT_EQ(nearest.primitive(), plain.primitive());
+      hits += plain.primitive() != nullptr ? 1U : 0U;
     }
   }
   EXPECT_GT(hits, 5000U);
@@ -351,9 +352,34 @@ TEST(Geometry, ManyShapesInOnePlaceAreHeldAndMet) {
   for (std::uint32_t i = 0; i < 3000; ++i) primitives.push_back({Sphere(Vec3::Zero(), 1.0), i});
   const Geometry geometry(primitives);
   const Ray ray{{-5.0, 0.0, 0.0}, Vec3::UnitX()};
-  Hit hit;
-  ASSERT_NE(geometry.cast(ray, BoxRay(ray), hit), nullptr);
-  EXPECT_EQ(hit.distance_m, 4.0);
+  Nearest nearest(ray.max_distance_m);
+  geometry.cast(ray, BoxRay(ray), nearest);
+  ASSERT_NE(nearest.primitive(), nullptr);
+  EXPECT_EQ(nearest.distance_m(), 4.0);
+  EXPECT_EQ(nearest.primitive()->surface, 0U);
+}
+
+TEST(Geometry, OfSurfacesInOnePlaceTheFirstIsMetInWhateverOrderTheyAreHeld) {
+  Dice random(8);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Primitive> primitives;
+    for (std::uint32_t surface = 0; surface < 12; ++surface) {
+      // Blocks of several sizes with their tops in the plane z = 0.
+      const Vec3 half(random.uniform(0.5, 2.0), random.uniform(0.5, 2.0), 0.5);
+      const RigidTransform at{Quaternion::Identity(), {0.0, 0.0, -0.5}};
+      primitives.push_back({Block(at, half), surface + 5});
+    }
+    for (std::size_t k = primitives.size(); k > 1; --k) {
+      std::swap(primitives[k - 1], primitives[random.index(k)]);
+    }
+    const Geometry geometry(primitives);
+    const Ray ray{{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), 2.0}, -Vec3::UnitZ()};
+    Nearest nearest(ray.max_distance_m);
+    geometry.cast(ray, BoxRay(ray), nearest);
+    ASSERT_NE(nearest.primitive(), nullptr);
+    ASSERT_EQ(nearest.distance_m(), 2.0);
+    ASSERT_EQ(nearest.primitive()->surface, 5U);
+  }
 }
 
 TEST(Ray, MirroredLeavesAtTheAngleAtWhichItCame) {

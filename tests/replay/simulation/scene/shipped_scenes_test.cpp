@@ -13,7 +13,9 @@
 
 #include <gtest/gtest.h>
 
+#include "replay/simulation/random.hpp"
 #include "replay/simulation/scene/scene.hpp"
+#include "replay/simulation/scene/shaft.hpp"
 
 namespace convexcut::simulation {
 namespace {
@@ -153,6 +155,45 @@ TEST_P(ShippedScene, IsTheSameWheneverItIsRead) {
     ASSERT_EQ(a.distance_m, b.distance_m);
     ASSERT_EQ(a.surface, b.surface);
   }
+}
+
+TEST_P(ShippedScene, InAShaftRaysMeetWhatTheyMeetWithoutIt) {
+  SceneAt instant = scene_.at(0s);
+  InShaft in_shaft;
+  Random random(11, 0);
+  const auto aside = [&](double most) {
+    return Vec3(random.uniform(-most, most), random.uniform(-most, most),
+                random.uniform(-most, most));
+  };
+  std::size_t hits = 0;
+  for (const Vec3& towards : directions(400)) {
+    if (random.chance(0.1))
+      instant.move_to(Duration{static_cast<std::int64_t>(random.uniform(0.0, 1e10))});
+    // As wide as a few firings, or much wider; some look along an axis.
+    const double width = random.chance(0.1) ? 0.5 : 0.02;
+    const Vec3 middle = random.chance(0.1) ? Vec3(Vec3::Unit(random.chance(0.5) ? 0 : 2)) : towards;
+    Shaft shaft;
+    std::vector<Ray> rays;
+    for (int i = 0; i < 8; ++i) {
+      rays.push_back({scene_.rig().position + aside(0.01), (middle + aside(width)).normalized()});
+      shaft.add(rays.back());
+    }
+    shaft.widen(0.002);
+    instant.gather(shaft, in_shaft);
+    for (Ray& ray : rays) {
+      ray.direction = (ray.direction + aside(0.001)).normalized();
+      if (random.chance(0.3)) ray.min_distance_m = random.uniform(0.0, 3.0);
+      if (random.chance(0.3)) ray.max_distance_m = random.uniform(1.0, 9.0);
+      Hit found;
+      Hit plain;
+      ASSERT_EQ(instant.cast(ray, in_shaft, found), instant.cast(ray, plain));
+      ASSERT_EQ(found.distance_m, plain.distance_m);
+      ASSERT_EQ(found.surface, plain.surface);
+      ASSERT_EQ(found.normal, plain.normal);
+      hits += plain.surface != kNoSurface ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(hits, 2000U);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene,
