@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <ctime>
+#include <string>
 #include <utility>
 
 #include "daemon/inputs/live_inputs.hpp"
@@ -60,6 +62,22 @@ std::vector<Reason> lasting_problems(const Realtime& realtime) {
   return {{Severity::degraded, "realtime set-up incomplete"}};
 }
 
+// What the robust method takes in a large hall on one core of a desktop (docs/accuracy.md).
+constexpr std::int64_t kRobustLatencyMs = 60;
+
+void warn_of_latency(const DaemonOptions& options) {
+  const config::Config& config = options.config;
+  if (config.convex_cut.method != config::Method::robust) return;
+  if (config.worker.latency_ms >= kRobustLatencyMs) return;
+  log::warning("latency", {{"problem", "convex_cut.method = \"robust\" takes up to " +
+                                           std::to_string(kRobustLatencyMs) +
+                                           " ms a scan, worker.latency_ms is " +
+                                           std::to_string(config.worker.latency_ms) +
+                                           ": less will be computed, or results be late; set "
+                                           "worker.latency_ms=" +
+                                           std::to_string(kRobustLatencyMs)}});
+}
+
 constexpr auto kSupervision = std::chrono::milliseconds{20};
 constexpr auto kReportEvery = std::chrono::seconds{1};
 
@@ -102,6 +120,7 @@ void Daemon::run() {
   for (const std::string& problem : realtime_.problems()) {
     log::warning("realtime", {{"problem", problem}});
   }
+  warn_of_latency(options_);
   log::info("start", {{"domain", options_.config.dds.domain},
                       {"scheduling", realtime_.scheduled() ? "fifo" : "normal"},
                       {"memory", realtime_.memory_locked() ? "locked" : "normal"}});

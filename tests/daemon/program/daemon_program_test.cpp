@@ -99,6 +99,19 @@ TEST_F(DaemonProgram, AWrongConfigurationStopsTheStart) {
   EXPECT_THAT(run.err, HasSubstr("worker.period_ms"));
 }
 
+TEST_F(DaemonProgram, ALatencyTooShortForTheRobustMethodIsToldAtTheStart) {
+  make_room({"--seconds", "0.3", "--empty"});
+  const auto warned = [&](const std::string& latency_ms) {
+    const ProgramResult run =
+        run_daemon({"--lidar", lidar(), "--imu", imu(), "--rate", "max", "--set",
+                    "convex_cut.method=robust", "--set", "worker.latency_ms=" + latency_ms});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.err.find("set worker.latency_ms=60") != std::string::npos;
+  };
+  EXPECT_TRUE(warned("10"));
+  EXPECT_FALSE(warned("60"));
+}
+
 TEST_F(DaemonProgram, ALidarPortInTheDdsDomainsRangeIsRefused) {
   make_room({"--seconds", "0.1"});
   const ProgramResult run = run_daemon({"--lidar", lidar(), "--set", "mount.orientation=fixed",
