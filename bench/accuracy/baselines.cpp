@@ -73,7 +73,7 @@ class HalfSpaceRansac {
 
   [[nodiscard]] std::optional<Plane> best_trial() {
     std::optional<Plane> best;
-    std::size_t most = static_cast<std::size_t>(kLeastShare * static_cast<double>(all_.size()));
+    auto most = static_cast<std::size_t>(kLeastShare * static_cast<double>(all_.size()));
     for (int i = 0; i < kTrials && left_.size() > 2; ++i) {
       const std::optional<Plane> plane = trial();
       if (!plane) continue;
@@ -100,6 +100,7 @@ class HalfSpaceRansac {
 
   CloudView cloud_;
   std::vector<Vec3f> left_, all_;
+  // The same planes in every run. NOLINTNEXTLINE(cert-msc32-c,cert-msc51-cpp)
   std::mt19937 random_{1};
 };
 
@@ -125,7 +126,7 @@ class HalfSpaceRansac {
                         static_cast<float>(f->offset)});
     }
   }
-  qh_freeqhull(&qh, !qh_ALL);
+  qh_freeqhull(&qh, qh_ALL == 0 ? 1U : 0U);
   int long_left = 0;
   int bytes_left = 0;
   qh_memfreeshort(&qh, &long_left, &bytes_left);

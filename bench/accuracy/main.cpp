@@ -3,7 +3,6 @@
 // convexcut_accuracy: paper, robust and three baselines on simulated, labelled scans, as JSON.
 // ./accuracy.sh runs it and writes docs/accuracy.md.
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 
 #include "bench/accuracy/experiments.hpp"
 #include "bench/accuracy/run.hpp"
+#include "bench/program.hpp"
 
 namespace convexcut::bench {
 namespace {
@@ -26,7 +26,7 @@ void print_score(const char* name, const evaluation::ScoreSummary& s, const char
 void print(const Run& run, const Outcome& o, bool first) {
   std::printf("%s\n{\"experiment\": \"%s\", \"variant\": \"%s\", \"scene\": \"%s\", ",
               first ? "" : ",", run.experiment.c_str(), run.variant.c_str(), run.scene.c_str());
-  std::printf("\"tilt\": %.0f, \"seed\": %llu, \"method\": \"%s\", ", run.tilt_deg,
+  std::printf(R"("tilt": %.0f, "seed": %llu, "method": "%s", )", run.tilt_deg,
               static_cast<unsigned long long>(run.options.simulation.seed), o.method.c_str());
   print_score("points", o.points, ", ");
   print_score("settled", o.settled, ", ");
@@ -44,7 +44,7 @@ void print(const Run& run, const Outcome& o, bool first) {
                 static_cast<unsigned long long>(e.counts.kept),
                 static_cast<unsigned long long>(e.counts.wrong));
   }
-  std::printf("}, \"unjudged\": %llu, \"unjudged_kept\": %llu, \"dynamic\": %.4f, \"ms\": %.3f}",
+  std::printf(R"(}, "unjudged": %llu, "unjudged_kept": %llu, "dynamic": %.4f, "ms": %.3f})",
               static_cast<unsigned long long>(o.pooled.unjudged),
               static_cast<unsigned long long>(o.pooled.unjudged_kept), o.dynamic_ratio.mean(),
               o.scans == 0 ? 0.0 : o.milliseconds / static_cast<double>(o.scans));
@@ -68,12 +68,9 @@ void run_all(const std::vector<Experiment>& experiments) {
   std::printf("\n]\n");
 }
 
-}  // namespace
-}  // namespace convexcut::bench
-
-int main(int argc, char** argv) {
+int program(int argc, char** argv) {
   CLI::App app{"Accuracy of paper, robust and baselines on simulated scans; JSON on stdout"};
-  convexcut::bench::ExperimentOptions options;
+  ExperimentOptions options;
   app.add_flag("--quick", options.quick, "one seed, few scans, no long recordings");
   app.add_option("--first-seed", options.first_seed, "of three; nothing was tuned on the default");
   app.add_option("--only", options.only, "one experiment by its name");
@@ -81,11 +78,13 @@ int main(int argc, char** argv) {
   app.add_option("--tilt", options.tilt_deg, "runs with this tilt alone, degrees");
   app.add_option("--method", options.method, "this method alone");
   CLI11_PARSE(app, argc, argv);
-  try {
-    convexcut::bench::run_all(convexcut::bench::experiments(options));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "convexcut_accuracy: %s\n", error.what());
-    return 1;
-  }
+  run_all(experiments(options));
   return 0;
+}
+
+}  // namespace
+}  // namespace convexcut::bench
+
+int main(int argc, char** argv) {
+  return convexcut::bench::run_program("convexcut_accuracy", convexcut::bench::program, argc, argv);
 }

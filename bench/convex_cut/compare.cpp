@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -18,6 +17,7 @@
 #include "bench/convex_cut/literal.hpp"
 #include "bench/convex_cut/measure.hpp"
 #include "bench/convex_cut/room_cloud.hpp"
+#include "bench/program.hpp"
 #include "core/convex_cut/engine.hpp"
 #include "core/simd/simd_path.hpp"
 
@@ -172,10 +172,5 @@ int program(int argc, char** argv) {
 }  // namespace convexcut::bench
 
 int main(int argc, char** argv) {
-  try {
-    return convexcut::bench::program(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "convex_cut_compare: %s\n", error.what());
-    return 1;
-  }
+  return convexcut::bench::run_program("convex_cut_compare", convexcut::bench::program, argc, argv);
 }

@@ -3,7 +3,6 @@
 // The plane extractor beside CGAL's region growing, on the same clouds of a room whose planes are
 // known, in the same run. Prints one JSON object.
 #include <cstdio>
-#include <exception>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "bench/convex_cut/measure.hpp"
 #include "bench/convex_cut/room_cloud.hpp"
 #include "bench/planes/region_growing.hpp"
+#include "bench/program.hpp"
 #include "core/planes/plane_extractor.hpp"
 
 namespace convexcut::bench {
@@ -105,10 +105,5 @@ int program(int argc, char** argv) {
 }  // namespace convexcut::bench
 
 int main(int argc, char** argv) {
-  try {
-    return convexcut::bench::program(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "planes_compare: %s\n", error.what());
-    return 1;
-  }
+  return convexcut::bench::run_program("planes_compare", convexcut::bench::program, argc, argv);
 }

@@ -55,11 +55,11 @@ void Geometry::cast(const Ray& ray, const BoxRay& box_ray, Nearest& nearest) con
 }
 
 Vec3 normal_at(const Shape& shape, const Vec3& p) noexcept {
-  return std::visit([&](const auto& each) { return each.normal_at(p); }, shape);
+  return with(shape, [&](const auto& each) { return each.normal_at(p); });
 }
 
 Bounds bounds_of(const Shape& shape) noexcept {
-  return std::visit([](const auto& each) { return each.bounds(); }, shape);
+  return with(shape, [](const auto& each) { return each.bounds(); });
 }
 
 Shape placed(const Shape& shape, const RigidTransform& world_from_local) {

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "replay/simulation/scene/bounds.hpp"
@@ -31,9 +30,9 @@ class Nearest {
 
   // Takes the primitive if it is met nearer; whether it is.
   bool try_on(const Ray& ray, const Primitive& primitive, std::uint32_t number) noexcept {
-    const double distance =
-        std::visit([&](const auto& shape) { return shape.meet(ray, before_m_); }, primitive.shape);
-    return offer(distance, primitive, number);
+    const double distance_m =
+        with(primitive.shape, [&](const auto& shape) { return shape.meet(ray, before_m_); });
+    return offer(distance_m, primitive, number);
   }
   bool offer(double distance_m, const Primitive& primitive, std::uint32_t number) noexcept {
     if (!(distance_m < before_m_)) return false;

@@ -134,4 +134,14 @@ class Sphere {
 
 using Shape = std::variant<Flat, Polygon, Block, Cylinder, Sphere>;
 
+// What `use` makes of the shape; as std::visit, and never throws where `use` does not.
+template <class Use>
+auto with(const Shape& shape, const Use& use) {
+  if (const auto* flat = std::get_if<Flat>(&shape)) return use(*flat);
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) return use(*polygon);
+  if (const auto* block = std::get_if<Block>(&shape)) return use(*block);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return use(*cylinder);
+  return use(*std::get_if<Sphere>(&shape));
+}
+
 }  // namespace convexcut::simulation
