@@ -14,6 +14,9 @@ function(convexcut_compiler_options target scope)
     >)
 endfunction()
 
+# Libraries are linked into programs only, so no function of theirs is ever replaced: the compiler may inline them.
+add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fno-semantic-interposition>)
+
 # Everything is compiled alike: sanitizers and hardening are set for the whole tree.
 set(CONVEXCUT_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize= (empty: none)")
 if(CONVEXCUT_SANITIZE)

@@ -37,8 +37,8 @@ class Beam {
 
   // Adds the echoes of the laser's beam. The rim towards the sides is asked; only when it meets
   // another plane is the beam made of the middle and four rays of its rim.
-  void add_echoes(const Neighbourhood& around, std::size_t laser, Sides sides,
-                  const Optics& optics, Echoes& echoes) const noexcept;
+  void add_echoes(const Neighbourhood& around, std::size_t laser, Sides sides, const Optics& optics,
+                  Echoes& echoes) const noexcept;
 
  private:
   // Opposites are i, i ^ 1.

@@ -72,7 +72,7 @@ class LidarSimulator {
   Beam beam_;
   std::int64_t looked_at_ = Column::kUnknown;
   Beam::UprightSides upright_{};  // as of that firing
-  PlainEchoes plain_;  // of the firing
+  PlainEchoes plain_;             // of the firing
   Echoes echoes_;
 };
 
