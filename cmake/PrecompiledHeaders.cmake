@@ -38,6 +38,8 @@ function(convexcut_precompile target kind)
     endif()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${headers})
-  # The compiler does not know its own library in them, and warns of what it inlines from there.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overread>)
+  # GCC does not know its own library in them, and warns of what it inlines from there.
+  target_compile_options(
+    ${target}
+    PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread>)
 endfunction()
