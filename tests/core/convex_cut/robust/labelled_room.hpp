@@ -43,10 +43,12 @@ struct Sight {
   double yaw_deg = 0.0;
   double noise_m = 0.02;
   double ghosts = 0.0;           // share of the points that are anywhere along their ray
+  double ghosts_beyond_m = 6.0;  // and as far behind what it meets
   double gravity_deg = 0.0;      // the cloud is turned by it about y
   Vec3 position = Vec3::Zero();  // in the middle of the revolution
   Vec3 step = Vec3::Zero();      // of the lidar from its start to its end
   std::uint64_t seed = 1;
+  int firings = 1085;  // every other one of a sensor at 10 Hz
 };
 
 // Where the ray enters or, from within, leaves the box; NaN: never.
@@ -88,16 +90,16 @@ struct Meeting {
 }
 
 [[nodiscard]] inline LabelledCloud revolution_in(const BoxRoom& room, const Sight& sight) {
-  constexpr int kFirings = 1085;  // every other one of a sensor at 10 Hz
   constexpr int kLasers = 32;
   constexpr double kDegree = std::numbers::pi / 180.0;
   Random random(sight.seed);
   LabelledCloud result;
   const Quaternion q = to_quaternion({{0.0}, {sight.tilt_deg}, {sight.yaw_deg}});
   const Quaternion q_gravity = to_quaternion({{0.0}, {sight.gravity_deg}, {0.0}});
-  for (int firing = 0; firing < kFirings; ++firing) {
-    const double azimuth = 2.0 * std::numbers::pi * firing / kFirings;
-    const Vec3 from = sight.position + (static_cast<double>(firing) / kFirings - 0.5) * sight.step;
+  for (int firing = 0; firing < sight.firings; ++firing) {
+    const double azimuth = 2.0 * std::numbers::pi * firing / sight.firings;
+    const Vec3 from =
+        sight.position + (static_cast<double>(firing) / sight.firings - 0.5) * sight.step;
     for (int laser = 0; laser < kLasers; ++laser) {
       const double elevation = (-30.67 + laser * 41.34 / 31.0) * kDegree;
       const Vec3 ray = q * Vec3(std::cos(elevation) * std::cos(azimuth),
@@ -105,7 +107,7 @@ struct Meeting {
       Meeting meeting = look(room, from, ray);
       meeting.range += sight.noise_m * random.normal();
       if (sight.ghosts > 0.0 && random.uniform(0.0, 1.0) < sight.ghosts) {
-        meeting = {random.uniform(1.0, meeting.range + 6.0), kGhost};
+        meeting = {random.uniform(1.0, meeting.range + sight.ghosts_beyond_m), kGhost};
       }
       const Vec3 p = q_gravity * (meeting.range * ray);
       result.cloud.add(p.x(), p.y(), p.z());

@@ -10,56 +10,18 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/convex_cut/robust/labelled_room.hpp"
+#include "tests/core/convex_cut/robust/room_cut.hpp"
 
 namespace convexcut {
 namespace {
 
 using test::BoxRoom;
+using test::cut;
+using test::Kept;
+using test::kMostPoints;
 using test::LabelledCloud;
 using test::revolution_in;
-using test::Sight;
-
-// What was kept of the points on one box (or kWalls, kGhost) in the last of some revolutions.
-struct Kept {
-  LabelledCloud cloud;
-  std::vector<Label> labels;
-
-  [[nodiscard]] double share_of(int box) const {
-    std::size_t all = 0;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (cloud.box[i] != box) continue;
-      ++all;
-      kept += labels[i] == Label::structure ? 1U : 0U;
-    }
-    EXPECT_GT(all, 30U) << "of box " << box;
-    return static_cast<double>(kept) / static_cast<double>(all);
-  }
-};
-
-constexpr std::size_t kMostPoints = 40'000;
-
-// A lidar that turns by 12° from one revolution to the next.
-[[nodiscard]] Kept cut(const BoxRoom& room, Sight sight, int revolutions = 1,
-                       const RobustParameters& parameters = {}) {
-  RobustCut robust(parameters, kMostPoints);
-  Kept kept;
-  for (int i = 0; i < revolutions; ++i) {
-    kept.cloud = revolution_in(room, sight);
-    kept.labels.assign(kept.cloud.cloud.size(), Label::other);
-    EXPECT_EQ(robust.label(kept.cloud.cloud.view(), kept.labels), CutStatus::ok);
-    sight.yaw_deg += 12.0;
-    ++sight.seed;
-  }
-  return kept;
-}
-
-[[nodiscard]] BoxRoom with(test::RoomBox box) {
-  BoxRoom room;
-  room.boxes = {box};
-  return room;
-}
+using test::with;
 
 TEST(RobustCut, KeepsAnEmptyRoom) {
   for (const double tilt : {0.0, 30.0, 60.0}) {

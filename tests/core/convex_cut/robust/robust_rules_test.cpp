@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One rule of RobustCut a test, in a small room where that rule decides. How often the rules are
+// right in furnished rooms, and what they are worth together, is measured by bench/accuracy.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/convex_cut/robust/robust_cut.hpp"
+#include "tests/core/convex_cut/robust/room_cut.hpp"
+
+namespace convexcut {
+namespace {
+
+using test::BoxRoom;
+using test::cut;
+using test::Kept;
+using test::RoomBox;
+
+constexpr double kKept = 0.9;
+constexpr double kRemoved = 0.15;       // but for the edges on floor and wall
+constexpr double kMostlyRemoved = 0.3;  // small things have more edge
+
+// The floor of a corridor is out of view beneath the lidar; two cupboards hide what is beside the
+// table.
+TEST(RobustRules, RemovesATableBetweenTwoPartsOfTheFloor) {
+  BoxRoom corridor;
+  corridor.walls = {{-4.0, -1.3, -1.2}, {4.0, 1.3, 1.6}};
+  corridor.boxes = {{{-0.6, 0.7, -0.6}, {0.6, 1.3, -0.5}},
+                    {{-1.2, 0.7, -1.2}, {-0.6, 1.3, 0.2}},
+                    {{0.6, 0.7, -1.2}, {1.2, 1.3, 0.2}}};
+  EXPECT_LT(cut(corridor, {}).share_of(0), kMostlyRemoved);
+}
+
+TEST(RobustRules, RemovesTheUndersideOfAShelfAndKeepsThatOfABulkhead) {
+  BoxRoom room;
+  room.walls = {{-3.0, -3.0, -1.2}, {2.0, 3.0, 1.6}};
+  room.boxes = {{{1.5, -0.6, 0.2}, {2.0, 0.6, 1.0}}};
+  EXPECT_LT(cut(room, {.tilt_deg = 2.0}, 4).share_of(0), kRemoved);
+  room.boxes = {{{1.2, -1.2, 0.2}, {2.0, 1.2, 1.0}}};
+  EXPECT_GT(cut(room, {.tilt_deg = 2.0}, 4).share_of(0), kKept);
+}
+
+// From corner to corner, so that no wall is seen beside it.
+TEST(RobustRules, RemovesAWideFrontOfBooksAndKeepsAFlatOne) {
+  BoxRoom room;
+  room.walls = {{-4.0, -2.0, -1.2}, {3.0, 2.0, 1.6}};
+  for (const double uneven_m : {0.0, 0.03}) {
+    room.boxes.clear();
+    for (int i = 0; i < 50; ++i) {
+      const double y = -2.0 + 0.08 * i;
+      const double front = 2.6 + uneven_m * (i * 7 % 5 - 2) / 2.0;
+      room.boxes.push_back({{front, y, -1.2}, {3.0, y + 0.08, 1.6}});
+    }
+    Kept kept = cut(room, {});
+    for (int& box : kept.cloud.box) box = std::min(box, 0);
+    if (uneven_m > 0.0) {
+      EXPECT_LT(kept.share_of(0), kRemoved);
+    } else {
+      EXPECT_GT(kept.share_of(0), kKept);
+    }
+  }
+}
+
+// Their tops are out of view.
+TEST(RobustRules, RemovesABoardThatStandsFreeAndKeepsAWallAsThin) {
+  EXPECT_LT(cut(test::with({{2.0, -0.6, -1.0}, {2.05, 0.9, 0.9}}), {}).share_of(0), kRemoved);
+  EXPECT_GT(cut(test::with({{2.0, -1.5, -1.0}, {2.05, 1.5, 0.9}}), {}).share_of(0), kKept);
+}
+
+// The pane goes on beside what is seen of its wall, down to a seat; or down to the floor, and then
+// it is a wall and what stands before it a cupboard.
+TEST(RobustRules, APaneInARecessDoesNotRejectItsWall) {
+  const RoomBox front{{3.8, -3.0, -1.2}, {4.0, 1.7, 1.6}};
+  BoxRoom room = test::with(front);
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
+  room.boxes.push_back({{3.3, 1.7, -1.2}, {4.0, 3.0, -0.4}});
+  EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
+// The niche beside the front is seen as high as the front, or no higher than 2 m.
+TEST(RobustRules, ATallFrontIsFurnitureOnlyBeforeAWallThatWasSeenAsHigh) {
+  BoxRoom room;
+  room.walls = {{-6.0, -4.0, -2.0}, {5.0, 4.0, 4.0}};
+  room.boxes = {{{4.4, -4.0, -2.0}, {5.0, 1.5, 4.0}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
+  room.boxes.push_back({{3.9, 1.5, 0.0}, {5.0, 4.0, 4.0}});
+  EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
+TEST(RobustRules, RemovesTheWallThatIsSeenBetweenShelves) {
+  BoxRoom room;
+  room.walls = {{-4.0, -3.0, -1.2}, {2.5, 3.0, 1.6}};
+  room.boxes = {{{2.49, -0.5, -0.75}, {2.5, 0.5, 0.2}}};
+  EXPECT_GT(cut(room, {}).share_of(0), kKept);
+  for (const double z : {-1.15, -0.8, -0.45, -0.1, 0.25}) {
+    room.boxes.push_back({{2.2, -0.5, z}, {2.5, 0.5, z + 0.04}});
+  }
+  EXPECT_LT(cut(room, {}).share_of(0), kMostlyRemoved);
+}
+
+// A pier over a cupboard, of which 0.6 m are in view, beside openings to what is behind.
+TEST(RobustRules, KeepsANarrowFaceWithinAWiderWallAndRemovesItAlone) {
+  BoxRoom room;
+  room.walls = {{-4.0, -3.0, -1.2}, {5.0, 3.0, 1.6}};
+  room.boxes = {{{3.0, 1.0, 0.0}, {3.2, 1.5, 1.6}}, {{2.5, 1.0, -1.2}, {3.2, 1.5, 0.0}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
+  room.boxes.push_back({{3.0, -3.0, -1.2}, {3.2, -0.2, 1.6}});
+  EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
+// In a narrow corridor, where ghosts are dense: their voxels beside a wall have its shape, so that
+// their number for the range tells; of the others, their number for the window.
+TEST(RobustRules, BelievesHardlyAnyVoxelOfIsolatedGhosts) {
+  constexpr double kHalfWidthM = 1.15;
+  BoxRoom corridor;
+  corridor.walls = {{-4.0, -kHalfWidthM, -1.2}, {4.0, kHalfWidthM, 1.6}};
+  RobustCut robust({}, 2 * test::kMostPoints);
+  const Kept kept =
+      test::last_of(robust, corridor, {.ghosts = 0.01, .ghosts_beyond_m = 1.0, .firings = 2170}, 4);
+  int behind = 0;
+  int believed = 0;
+  for (const robust::Surfel& surfel : robust.model().surfels) {
+    if (std::abs(static_cast<double>(surfel.mean.y())) < kHalfWidthM + 0.15) continue;
+    ++behind;
+    believed += surfel.supported ? 1 : 0;
+  }
+  EXPECT_GT(behind, 100);
+  EXPECT_LT(believed, behind / 100 + 1);
+  EXPECT_GT(kept.share_of(test::kWalls), 0.985);
+}
+
+// About half of what the mirror shows is seen without it as well, the rest is above the view.
+TEST(RobustRules, RemovesAMirrorImageThatIsPartlyOutOfView) {
+  BoxRoom room;
+  room.has_mirror = true;
+  room.mirror = {-1.0, 1.0, -0.1, 0.8};
+  const Kept kept = cut(room, {});
+  EXPECT_LT(kept.share_of(test::kGhost), kRemoved);
+  EXPECT_GT(kept.share_of(test::kWalls), 0.98);
+}
+
+// A third of its end is as far behind the hole as the room's end is before it.
+TEST(RobustRules, KeepsARoomBehindAHoleThatIsPartlyAsThisOne) {
+  BoxRoom room;
+  room.walls = {{-4.0, -9.0, -1.2}, {4.0, 3.0, 1.6}};
+  room.boxes = {{{-4.0, -9.0, -1.2}, {1.0, -7.5, 1.6}},
+                {{-4.0, -3.1, -1.2}, {-1.0, -3.0, 1.6}},
+                {{1.0, -3.1, -1.2}, {4.0, -3.0, 1.6}},
+                {{-1.0, -3.1, -1.2}, {1.0, -3.0, -0.6}}};
+  const Kept kept = cut(room, {});
+  EXPECT_GT(kept.share_of(0), kKept);
+  EXPECT_GT(kept.share_of(test::kWalls), 0.98);
+}
+
+}  // namespace
+}  // namespace convexcut
