@@ -119,32 +119,26 @@ KeyBounds shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
           static_cast<std::uint16_t>(hn::GetLane(hn::MaxOfLanes(di, greatest)))};
 }
 
-void place_points(const CloudView& cloud, const std::uint16_t* keys, const KeyedPart& a,
-                  const KeyedPart& b, PointRecord* records) {
+void place_points(const CloudView& cloud, const std::uint16_t* keys, const std::uint32_t* ranks,
+                  std::size_t begin, std::size_t end, const std::uint32_t* starts,
+                  PointRecord* records) {
   const hn::CappedTag<float, 4> df;
   const hn::RebindToUnsigned<decltype(df)> dw;
   const std::size_t lanes = hn::Lanes(df);
   const float* HWY_RESTRICT xs = cloud.x.data();
   const float* HWY_RESTRICT ys = cloud.y.data();
   const float* HWY_RESTRICT zs = cloud.z.data();
-  const auto place_one = [&](std::size_t i, std::uint32_t* next) {
-    records[next[keys[i]]++] = {xs[i], ys[i], zs[i], static_cast<std::uint32_t>(i)};
-  };
-  const auto place_some = [&](std::size_t i, std::uint32_t* next) HWY_ATTR {
+  std::size_t i = begin;
+  for (; i + lanes <= end; i += lanes) {
     alignas(16) std::array<PointRecord, hn::MaxLanes(df)> turned;
     const auto source = hn::Iota(dw, static_cast<std::uint32_t>(i));
     hn::StoreInterleaved4(hn::LoadU(df, xs + i), hn::LoadU(df, ys + i), hn::LoadU(df, zs + i),
                           hn::BitCast(df, source), df, &turned[0].x);
-    for (std::size_t k = 0; k < lanes; ++k) records[next[keys[i + k]]++] = turned[k];
-  };
-  const std::size_t common = std::min(a.end - a.begin, b.end - b.begin);
-  std::size_t done = 0;
-  for (; done + lanes <= common; done += lanes) {
-    place_some(a.begin + done, a.next);
-    place_some(b.begin + done, b.next);
+    for (std::size_t k = 0; k < lanes; ++k) records[starts[keys[i + k]] + ranks[i + k]] = turned[k];
   }
-  for (std::size_t i = a.begin + done; i < a.end; ++i) place_one(i, a.next);
-  for (std::size_t i = b.begin + done; i < b.end; ++i) place_one(i, b.next);
+  for (; i < end; ++i) {
+    records[starts[keys[i]] + ranks[i]] = {xs[i], ys[i], zs[i], static_cast<std::uint32_t>(i)};
+  }
 }
 
 void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
@@ -185,9 +179,10 @@ KeyBounds shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
   return HWY_DYNAMIC_DISPATCH(shell_keys)(cloud, begin, end, inverse_squared_half_width, keys);
 }
 
-void place_points(const CloudView& cloud, const std::uint16_t* keys, const KeyedPart& a,
-                  const KeyedPart& b, PointRecord* records) noexcept {
-  HWY_DYNAMIC_DISPATCH(place_points)(cloud, keys, a, b, records);
+void place_points(const CloudView& cloud, const std::uint16_t* keys, const std::uint32_t* ranks,
+                  std::size_t begin, std::size_t end, const std::uint32_t* starts,
+                  PointRecord* records) noexcept {
+  HWY_DYNAMIC_DISPATCH(place_points)(cloud, keys, ranks, begin, end, starts, records);
 }
 
 void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,

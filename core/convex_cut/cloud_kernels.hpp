@@ -36,17 +36,11 @@ struct alignas(16) PointRecord {
   std::uint32_t source;  // its index in the cloud
 };
 
-// Points [begin, end) of a cloud with their keys, and where the next point of each key goes.
-struct KeyedPart {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-  std::uint32_t* next = nullptr;
-};
-
-// Puts the points of two parts of a cloud to their places, in turn: points that follow each other
-// often have the same key, and would wait for each other's place.
-void place_points(const CloudView& cloud, const std::uint16_t* keys, const KeyedPart& a,
-                  const KeyedPart& b, PointRecord* records) noexcept;
+// Puts points [begin, end) of a cloud to their places: starts[key] is where the first one of each
+// key goes, and ranks[i] how many of point i's key go before it.
+void place_points(const CloudView& cloud, const std::uint16_t* keys, const std::uint32_t* ranks,
+                  std::size_t begin, std::size_t end, const std::uint32_t* starts,
+                  PointRecord* records) noexcept;
 
 // Sorted points.
 struct PointColumns {

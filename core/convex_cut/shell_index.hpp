@@ -114,10 +114,10 @@ class ShellIndex {
   }
 
  private:
-  // Two runs of the cloud, each with its own counts.
   struct Part {
-    std::array<KeyedPart, 2> runs;
-    std::array<std::vector<std::uint32_t>, 2> counts;  // of each key; then its next place
+    std::size_t begin = 0;  // its points in the cloud
+    std::size_t end = 0;
+    std::vector<std::uint32_t> counts;  // of each key; then the place of the first one
     KeyBounds bounds;
   };
 
@@ -130,7 +130,7 @@ class ShellIndex {
   Workspace<std::uint16_t> keys_;  // shell · kBuckets + bucket, in the cloud's order
   Column<PointRecord> records_;
   Column<float> x_, y_, z_;
-  Column<std::uint32_t> source_;
+  Column<std::uint32_t> source_;  // until spread(): of each point, its rank among those of its key
   std::vector<std::uint32_t> starts_;  // of each key in the sorted points, and the end
   std::array<std::size_t, kShells> used_shells_{};
   std::size_t used_shell_count_ = 0;
