@@ -91,32 +91,42 @@ KeyBounds shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
   const hn::Rebind<std::uint16_t, Floats> dk;
   const std::size_t lanes = hn::Lanes(df);
   const Float inverse = hn::Set(df, inverse_squared_half_width);
+  const Int without_sign = hn::Set(di, static_cast<std::int32_t>(kWithoutSign));
   Int least = hn::Set(di, 0xFFFF);
   Int greatest = hn::Zero(di);
-  std::size_t i = begin;
-  for (; i + lanes <= end; i += lanes) {
-    const Int key =
-        keys_of(hn::LoadU(df, cloud.x.data() + i), hn::LoadU(df, cloud.y.data() + i), inverse);
+  Int magnitude = hn::Zero(di);
+  const auto keys_at = [&](const float* x, const float* y, const float* z) HWY_ATTR {
+    const Float at_x = hn::LoadU(df, x);
+    const Float at_y = hn::LoadU(df, y);
+    const Int key = keys_of(at_x, at_y, inverse);
     least = hn::Min(least, key);
     greatest = hn::Max(greatest, key);
-    hn::StoreU(hn::DemoteTo(dk, key), dk, keys + i);
+    const Int z_bits = hn::And(hn::BitCast(di, hn::LoadU(df, z)), without_sign);
+    const Int x_bits = hn::And(hn::BitCast(di, at_x), without_sign);
+    const Int y_bits = hn::And(hn::BitCast(di, at_y), without_sign);
+    magnitude = hn::Max(hn::Max(magnitude, z_bits), hn::Max(x_bits, y_bits));
+    return hn::DemoteTo(dk, key);
+  };
+  std::size_t i = begin;
+  for (; i + lanes <= end; i += lanes) {
+    hn::StoreU(keys_at(cloud.x.data() + i, cloud.y.data() + i, cloud.z.data() + i), dk, keys + i);
   }
   HWY_ALIGN float x[hn::MaxLanes(df)] = {};
   HWY_ALIGN float y[hn::MaxLanes(df)] = {};
+  HWY_ALIGN float z[hn::MaxLanes(df)] = {};
   if (i < end) {
     for (std::size_t k = 0; k < lanes; ++k) {  // behind the end, the last point again
       x[k] = cloud.x[std::min(i + k, end - 1)];
       y[k] = cloud.y[std::min(i + k, end - 1)];
+      z[k] = cloud.z[std::min(i + k, end - 1)];
     }
     HWY_ALIGN std::uint16_t last[hn::MaxLanes(df)];
-    const Int key = keys_of(hn::Load(df, x), hn::Load(df, y), inverse);
-    least = hn::Min(least, key);
-    greatest = hn::Max(greatest, key);
-    hn::StoreU(hn::DemoteTo(dk, key), dk, last);
+    hn::StoreU(keys_at(x, y, z), dk, last);
     std::copy_n(last, end - i, keys + i);
   }
   return {static_cast<std::uint16_t>(hn::GetLane(hn::MinOfLanes(di, least))),
-          static_cast<std::uint16_t>(hn::GetLane(hn::MaxOfLanes(di, greatest)))};
+          static_cast<std::uint16_t>(hn::GetLane(hn::MaxOfLanes(di, greatest))),
+          static_cast<std::uint32_t>(hn::GetLane(hn::MaxOfLanes(di, magnitude)))};
 }
 
 void place_points(const CloudView& cloud, const std::uint16_t* keys, const std::uint32_t* ranks,

@@ -22,10 +22,12 @@ inline constexpr std::size_t kKernelPadding = 64;
 [[nodiscard]] std::uint32_t greatest_magnitude_bits(std::span<const float> values) noexcept;
 
 // The keys that ShellIndex sorts by, shell · kBuckets + bucket, of points [begin, end) into
-// keys[begin … end). Returns the least and the greatest of them. Needs begin < end.
+// keys[begin … end). Returns the least and the greatest of them, and the points'
+// greatest_magnitude_bits: where these are not of a number, keys mean nothing. Needs begin < end.
 struct KeyBounds {
   std::uint16_t least = 0xFFFF;
   std::uint16_t greatest = 0;
+  std::uint32_t magnitude_bits = 0;
 };
 KeyBounds shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
                      float inverse_squared_half_width, std::uint16_t* keys) noexcept;

@@ -82,20 +82,17 @@ std::uint32_t ShellIndex::count(std::size_t part_number) noexcept {
   Part& part = parts_[part_number];
   part.bounds = {};
   std::fill_n(part.counts.data(), kKeys, 0U);
-  std::uint32_t greatest = 0;
   for (std::size_t begin = part.begin; begin < part.end; begin += kChunk) {
     const std::size_t end = std::min(begin + kChunk, part.end);
-    for (const std::span<const float> column : {cloud_.x, cloud_.y, cloud_.z}) {
-      greatest = std::max(greatest, greatest_magnitude_bits(column.subspan(begin, end - begin)));
-    }
-    if (greatest > std::bit_cast<std::uint32_t>(kMaxCoordinateM)) return greatest;
     const KeyBounds bounds =
         shell_keys(cloud_, begin, end, inverse_squared_half_width_, keys_.data());
+    part.bounds.magnitude_bits = std::max(part.bounds.magnitude_bits, bounds.magnitude_bits);
+    if (bounds.magnitude_bits > std::bit_cast<std::uint32_t>(kMaxCoordinateM)) break;
     part.bounds.least = std::min(part.bounds.least, bounds.least);
     part.bounds.greatest = std::max(part.bounds.greatest, bounds.greatest);
     rank_points(keys_.data() + begin, end - begin, part.counts.data(), source_.data() + begin);
   }
-  return greatest;
+  return part.bounds.magnitude_bits;
 }
 
 void ShellIndex::lay_out() noexcept {

@@ -28,7 +28,7 @@ class ShellIndex {
   // Shell 0: r < √2·d, whose points are candidates of every plane; shell s: √2ˢ·d ≤ r < √2ˢ⁺¹·d;
   // the last one is open. 24 shells reach 2900·d, beyond which a bucket is wider than any slice.
   static constexpr std::size_t kShells = 24;
-  static constexpr std::size_t kBuckets = 1024;  // directions, all round
+  static constexpr std::size_t kBuckets = 2048;  // directions, all round
 
   // Positions [begin, end) of the sorted points.
   struct Range {

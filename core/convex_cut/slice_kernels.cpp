@@ -105,7 +105,7 @@ HWY_INLINE void along_axes(Float u, Float z, Float* HWY_RESTRICT values) noexcep
 // The vectors of members are numbered: a value is tagged with its vector's number.
 // When there are more than can be numbered, only one in so many is looked at; and of single members
 // on the baseline path, which would spend half of its time here.
-constexpr std::size_t kMostVectors = HWY_TARGET == HWY_SCALAR ? 1U << 7U : 1U << 11U;
+constexpr std::size_t kMostVectors = HWY_TARGET == HWY_SCALAR ? 1U << 7U : 1U << 9U;
 
 // The member that the best of the lanes' tagged values names.
 HWY_INLINE std::uint32_t tagged_member(Float tagged_values, Float best, std::uint32_t tag_mask,

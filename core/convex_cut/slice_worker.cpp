@@ -18,7 +18,7 @@ namespace {
 constexpr float kDepthErrorPerExtent = 2e-6F;
 
 // With more candidates or more rounds of widening, the exact hull of the candidates is quicker.
-constexpr std::size_t kMostCandidates = 1024;
+constexpr std::size_t kMostCandidates = 16384;
 constexpr int kMostRounds = 6;
 
 // The reference's decision: any edge of the hull within the distance.
