@@ -14,6 +14,7 @@
 #define HWY_TARGET_INCLUDE "core/convex_cut/cloud_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Behind foreach_target.h.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -152,7 +153,7 @@ void place_points(const CloudView& cloud, const std::uint16_t* keys, const std::
 }
 
 void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
-                    const PointColumns columns) {
+                    const PointColumns columns, bool past_the_cache) {
   const Floats df;
   const hn::ScalableTag<std::uint32_t> dw;
   for (std::size_t i = begin; i < end; i += hn::Lanes(df)) {
@@ -161,11 +162,19 @@ void spread_records(const PointRecord* records, std::size_t begin, std::size_t e
     Float z;
     Float source;
     hn::LoadInterleaved4(df, &records[i].x, x, y, z, source);
-    hn::StoreU(x, df, columns.x + i);
-    hn::StoreU(y, df, columns.y + i);
-    hn::StoreU(z, df, columns.z + i);
-    hn::StoreU(hn::BitCast(dw, source), dw, columns.source + i);
+    if (past_the_cache) {
+      hn::Stream(x, df, columns.x + i);
+      hn::Stream(y, df, columns.y + i);
+      hn::Stream(z, df, columns.z + i);
+      hn::Stream(hn::BitCast(dw, source), dw, columns.source + i);
+    } else {
+      hn::StoreU(x, df, columns.x + i);
+      hn::StoreU(y, df, columns.y + i);
+      hn::StoreU(z, df, columns.z + i);
+      hn::StoreU(hn::BitCast(dw, source), dw, columns.source + i);
+    }
   }
+  if (past_the_cache) hwy::FlushStream();
 }
 
 }  // namespace convexcut::HWY_NAMESPACE
@@ -196,8 +205,8 @@ void place_points(const CloudView& cloud, const std::uint16_t* keys, const std::
 }
 
 void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
-                    const PointColumns& columns) noexcept {
-  HWY_DYNAMIC_DISPATCH(spread_records)(records, begin, end, columns);
+                    const PointColumns& columns, bool past_the_cache) noexcept {
+  HWY_DYNAMIC_DISPATCH(spread_records)(records, begin, end, columns, past_the_cache);
 }
 
 }  // namespace convexcut

@@ -22,6 +22,9 @@ static_assert(kKeys <= 0x1'0000, "a key is 16 bits wide");
 constexpr double kTurnSlack = 1e-4;
 constexpr double kRadiusSlack = 1e-5;
 
+// More points than the caches of a robot's computer hold.
+constexpr std::size_t kMostInCache = std::size_t{1} << 20U;
+
 // How many points of its key each point comes after. Points that follow each other often have the
 // same key and would wait for each other's count: so they are counted in turn at four places.
 void rank_points(const std::uint16_t* keys, std::size_t size, std::uint32_t* counts,
@@ -123,7 +126,7 @@ void ShellIndex::place(std::size_t part_number) noexcept {
 void ShellIndex::spread(std::size_t chunk) noexcept {
   const std::size_t begin = chunk * kChunk;
   spread_records(records_.data(), begin, std::min(begin + kChunk, size_),
-                 {x_.data(), y_.data(), z_.data(), source_.data()});
+                 {x_.data(), y_.data(), z_.data(), source_.data()}, size_ > kMostInCache);
 }
 
 ShellIndex::Windows ShellIndex::windows(const SlicingPlane& plane) noexcept {
