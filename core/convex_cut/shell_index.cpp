@@ -22,8 +22,8 @@ static_assert(kKeys <= 0x1'0000, "a key is 16 bits wide");
 constexpr double kTurnSlack = 1e-4;
 constexpr double kRadiusSlack = 1e-5;
 
-// More points than the caches of a robot's computer hold.
-constexpr std::size_t kMostInCache = std::size_t{1} << 20U;
+// The columns of more points than this, 8 MB, are not in a cache any more when they are read.
+constexpr std::size_t kMostInCache = std::size_t{1} << 19U;
 
 // How many points of its key each point comes after. Points that follow each other often have the
 // same key and would wait for each other's count: so they are counted in turn at four places.
