@@ -58,13 +58,13 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
   for (const std::unique_ptr<SliceWorker>& worker : workers_) worker->forget();
   auto work = [&](unsigned member) noexcept {
     SliceWorker& worker = *workers_[member];
-    steps_.count.run([&](std::uint32_t part) { magnitudes_[part] = index_.count(part); });
+    steps_.count.run(member, [&](std::uint32_t part) { magnitudes_[part] = index_.count(part); });
     if (extent_m() > kMaxCoordinateM) return;
-    steps_.lay_out.run([&](std::uint32_t) { index_.lay_out(); });
-    steps_.place.run([&](std::uint32_t part) { index_.place(part); });
-    steps_.spread.run([&](std::uint32_t chunk) { index_.spread(chunk); });
-    steps_.slices.run([&](std::uint32_t group) { process_slices(worker, group, plane_stride); });
-    steps_.write.run([&](std::uint32_t chunk) { write_labels(chunk, labels); });
+    steps_.lay_out.run(member, [&](std::uint32_t) { index_.lay_out(); });
+    steps_.place.run(member, [&](std::uint32_t part) { index_.place(part); });
+    steps_.spread.run(member, [&](std::uint32_t chunk) { index_.spread(chunk); });
+    steps_.slices.run(member, [&](std::uint32_t group) { process_slices(worker, group, plane_stride); });
+    steps_.write.run(member, [&](std::uint32_t chunk) { write_labels(chunk, labels); });
   };
   team_.run(work);
   return extent_m() > kMaxCoordinateM ? CutStatus::coordinate_out_of_range : CutStatus::ok;
