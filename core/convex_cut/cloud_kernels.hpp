@@ -51,9 +51,9 @@ struct PointColumns {
   float* z;
   std::uint32_t* source;
 };
-// Copies records [begin, end) to the same places of the columns, which begin at a cache line, as does
-// `begin`. Whole vectors are read and written; past_the_cache: into memory, where the columns are
-// larger than the caches.
+// Copies records [begin, end) to the same places of the columns, which begin at a cache line, as
+// does `begin`. Whole vectors are read and written; past_the_cache: into memory, where the columns
+// are larger than the caches.
 void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
                     const PointColumns& columns, bool past_the_cache) noexcept;
 

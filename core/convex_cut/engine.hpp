@@ -48,7 +48,7 @@ class ConvexCutEngine {
   void prepare_steps(std::uint32_t plane_stride) noexcept;
   void process_slices(SliceWorker& worker, std::uint32_t group,
                       std::uint32_t plane_stride) noexcept;
-  void write_labels(std::uint32_t chunk, std::span<Label> labels) noexcept;
+  void write_labels(std::uint32_t piece, std::span<Label> labels) noexcept;
   [[nodiscard]] float extent_m() const noexcept;
 
   ConvexCutParameters parameters_;

@@ -52,8 +52,8 @@ class SharedStep {
   // Apart, so that waiting does not disturb dealing.
   static constexpr std::uint64_t kOneFromTheBack = std::uint64_t{1} << 32U;
   alignas(64) std::atomic<std::uint64_t> taken_{0};  // items from the front; from the back
-  alignas(64) std::atomic<std::uint32_t> done_{0};  // items that have been done
-  std::uint32_t items_ = 0;                         // written by prepare() only
+  alignas(64) std::atomic<std::uint32_t> done_{0};   // items that have been done
+  std::uint32_t items_ = 0;                          // written by prepare() only
 };
 
 }  // namespace convexcut

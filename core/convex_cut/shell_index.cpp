@@ -45,12 +45,14 @@ ShellIndex::ShellIndex(double half_width_m, std::size_t max_points, unsigned thr
     : inverse_squared_half_width_(static_cast<float>(1.0 / (half_width_m * half_width_m))),
       parts_(std::max(threads, 1U)),
       keys_(max_points + kKernelPadding),
+      ranks_(max_points + kKernelPadding),
       records_(max_points + kKernelPadding, 0),
       x_(max_points + kKernelPadding, 1),
       y_(max_points + kKernelPadding, 2),
       z_(max_points + kKernelPadding, 3),
       source_(max_points + kKernelPadding, 4),
-      starts_(kKeys + 1) {
+      starts_(kKeys + 1),
+      pieces_(max_points / kChunk + 1 + 3 * kShells) {
   for (Part& part : parts_) part.counts.resize(kKeys);
   for (std::size_t shell = 0; shell < kShells; ++shell) {
     // u² = r² − v², and |v| < d.
@@ -69,7 +71,7 @@ void ShellIndex::build(const CloudView& cloud) noexcept {
   for (std::size_t part = 0; part < parts(); ++part) static_cast<void>(count(part));
   lay_out();
   for (std::size_t part = 0; part < parts(); ++part) place(part);
-  for (std::size_t chunk = 0; chunk < chunks(); ++chunk) spread(chunk);
+  for (std::size_t k = 0; k < pieces(); ++k) spread(k);
 }
 
 void ShellIndex::begin(const CloudView& cloud) noexcept {
@@ -93,7 +95,7 @@ std::uint32_t ShellIndex::count(std::size_t part_number) noexcept {
     if (bounds.magnitude_bits > std::bit_cast<std::uint32_t>(kMaxCoordinateM)) break;
     part.bounds.least = std::min(part.bounds.least, bounds.least);
     part.bounds.greatest = std::max(part.bounds.greatest, bounds.greatest);
-    rank_points(keys_.data() + begin, end - begin, part.counts.data(), source_.data() + begin);
+    rank_points(keys_.data() + begin, end - begin, part.counts.data(), ranks_.data() + begin);
   }
   return part.bounds.magnitude_bits;
 }
@@ -115,17 +117,54 @@ void ShellIndex::lay_out() noexcept {
     starts_[(shell + 1) * kBuckets] = begin;
     if (begin != shell_begin) used_shells_[used_shell_count_++] = shell;
   }
+  lay_out_pieces();
+}
+
+// Each shell is cut where the first point is and opposite.
+void ShellIndex::lay_out_pieces() noexcept {
+  piece_count_ = 0;
+  if (size_ == 0) return;
+  const std::size_t one = keys_[0] % kBuckets;
+  const std::size_t other = (one + kBuckets / 2) % kBuckets;
+  const auto [from, to] = std::minmax(one, other);
+  const std::size_t early = keys_[size_ / 4] % kBuckets;
+  const bool starts_between = early >= from && early < to;
+  for (const bool between : {starts_between, !starts_between}) {
+    for (std::size_t k = 0; k < used_shell_count_; ++k) {
+      const std::uint32_t* const start = starts_.data() + used_shells_[k] * kBuckets;
+      if (between) {
+        add_pieces(start[from], start[to]);
+      } else {
+        add_pieces(start[0], start[from]);
+        add_pieces(start[to], start[kBuckets]);
+      }
+    }
+  }
+}
+
+// Whole lines of the cache, so that no two pieces share one.
+void ShellIndex::add_pieces(std::uint32_t begin, std::uint32_t end) noexcept {
+  const auto at_line = [this](std::uint32_t position) {
+    constexpr std::uint32_t kWholeLines = 64;
+    return position == size_ ? position : position / kWholeLines * kWholeLines;
+  };
+  const std::uint32_t last = at_line(end);
+  for (std::uint32_t next = at_line(begin); next < last;) {
+    const std::uint32_t piece_end = std::min<std::uint32_t>(next + kChunk, last);
+    pieces_[piece_count_++] = {next, piece_end};
+    next = piece_end;
+  }
 }
 
 void ShellIndex::place(std::size_t part_number) noexcept {
   const Part& part = parts_[part_number];
-  place_points(cloud_, keys_.data(), source_.data(), part.begin, part.end, part.counts.data(),
+  place_points(cloud_, keys_.data(), ranks_.data(), part.begin, part.end, part.counts.data(),
                records_.data());
 }
 
-void ShellIndex::spread(std::size_t chunk) noexcept {
-  const std::size_t begin = chunk * kChunk;
-  spread_records(records_.data(), begin, std::min(begin + kChunk, size_),
+void ShellIndex::spread(std::size_t piece_number) noexcept {
+  const Range range = piece(piece_number);
+  spread_records(records_.data(), range.begin, range.end,
                  {x_.data(), y_.data(), z_.data(), source_.data()}, size_ > kMostInCache);
 }
 

@@ -12,8 +12,8 @@ namespace convexcut {
 
 class WorkerTeam {
  public:
-  // Starts members − 1 threads (none for 0 and 1; at most 1023). They inherit the scheduling policy and the
-  // affinity of the calling thread. Throws std::system_error when one cannot be started.
+  // Starts members − 1 threads (none for 0 and 1; at most 1023). They inherit the scheduling policy
+  // and the affinity of the calling thread. Throws std::system_error when one cannot be started.
   explicit WorkerTeam(unsigned members);
   ~WorkerTeam();
   WorkerTeam(const WorkerTeam&) = delete;
@@ -23,8 +23,8 @@ class WorkerTeam {
     return static_cast<unsigned>(threads_.size()) + 1;
   }
 
-  // Calls work(member) in the calling thread with member 0, and at most once in each other thread of
-  // the team that comes before that has returned; returns when all that have come have returned.
+  // Calls work(member) in the calling thread with member 0, and at most once in each other thread
+  // of the team that comes before that has returned; returns when all that have come have returned.
   // So a thread that gets no processor delays nobody. What was written before is visible in the
   // work, and what the work wrote is visible after. One caller at a time. RT: no allocation and no
   // lock; members sleep in a futex between calls.
@@ -50,8 +50,8 @@ class WorkerTeam {
   void open() noexcept;
   [[nodiscard]] bool enter(std::uint32_t& seen_round) noexcept;
 
-  Task task_;                           // written while the gate is closed and nobody is inside
-  bool stopping_ = false;               // likewise
+  Task task_;              // written while the gate is closed and nobody is inside
+  bool stopping_ = false;  // likewise
   std::atomic<std::uint32_t> gate_{kClosed};
   std::atomic<std::uint32_t> left_{0};  // threads that entered the round and have finished it
   std::vector<std::thread> threads_;

@@ -34,6 +34,13 @@ void expect_every_point_once(ShellIndex& index, const test::Cloud& cloud) {
     ASSERT_EQ(index.points().z[k], cloud.z[source]);
   }
   ASSERT_EQ(std::ranges::count(held, 1), std::ssize(held));
+  std::vector<int> in_pieces(cloud.size(), 0);
+  for (std::size_t k = 0; k < index.pieces(); ++k) {
+    const auto [begin, end] = index.piece(k);
+    ASSERT_LE(end - begin, ShellIndex::kChunk);
+    for (std::uint32_t position = begin; position < end; ++position) ++in_pieces.at(position);
+  }
+  ASSERT_EQ(std::ranges::count(in_pieces, 1), std::ssize(in_pieces));
 }
 
 TEST(ShellIndex, HoldsEveryPointOnce) {
