@@ -23,7 +23,7 @@ namespace convexcut {
 
 class ConvexCutEngine {
  public:
-  // Allocates everything it will ever need: about 35 bytes a point and 110 more for every thread.
+  // Allocates everything it will ever need: about 40 bytes a point and 110 more for every thread.
   // threads: that work on a cloud, with the calling one (0 counts as 1). Throws
   // std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹,
   // std::bad_alloc, and std::system_error when a thread cannot be started.
