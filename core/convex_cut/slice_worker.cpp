@@ -152,7 +152,7 @@ void SliceWorker::start_with_any_triangle(const SlicingPlane& plane) noexcept {
   }
   polygon_->clear();
   for (std::size_t k = 0; k < found; ++k) polygon_->add(corners[k]);
-  if (found == 3) polygon_->close();
+  if (found == 3) polygon_->close_exact();
 }
 
 // Puts the candidate that is farthest outside of an edge between its corners (W. F. Eddy's and

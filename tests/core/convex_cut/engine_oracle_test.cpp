@@ -94,6 +94,18 @@ TEST_P(EngineOnEverySimdPath, LabelsAreTheReferencesInSlicesOfManyMembers) {
   EXPECT_EQ(first_difference(labels, expected), cloud.size());
 }
 
+TEST_P(EngineOnEverySimdPath, LabelsAreTheReferencesWhereOnlyRoundingToFloatBendsALine) {
+  test::Cloud cloud;
+  for (int k = 0; k <= 42; ++k) cloud.add(k * 3.12e-7, k * 1.3569e-5, k * 1.5102e-5);
+  const ConvexCutParameters parameters{.planes = 16, .half_width_m = 1e-4, .hull_distance_m = 0.0};
+  std::vector<Label> expected(cloud.size());
+  std::vector<Label> labels(cloud.size());
+  ASSERT_EQ(reference::label(parameters, cloud.view(), expected), CutStatus::ok);
+  ConvexCutEngine engine(parameters, cloud.size(), 1);
+  ASSERT_EQ(engine.label(cloud.view(), labels), CutStatus::ok);
+  EXPECT_EQ(first_difference(labels, expected), cloud.size());
+}
+
 CONVEXCUT_ON_EVERY_SIMD_PATH(EngineOnEverySimdPath);
 
 INSTANTIATE_TEST_SUITE_P(AllDistributions, EngineOracle, testing::ValuesIn(test::distributions()),
