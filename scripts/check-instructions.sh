@@ -8,8 +8,8 @@ cd "$(dirname "$0")/.."
 declare -A bound=(
   [decode]=53
   [level]=28
-  [label]=397
-  [stream]=1189
+  [label]=348
+  [stream]=859
 )
 
 # instructions STAGE ROUNDS

@@ -14,6 +14,7 @@
 #define HWY_TARGET_INCLUDE "core/convex_cut/cloud_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Behind foreach_target.h.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -91,64 +92,68 @@ KeyBounds shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
   const hn::Rebind<std::uint16_t, Floats> dk;
   const std::size_t lanes = hn::Lanes(df);
   const Float inverse = hn::Set(df, inverse_squared_half_width);
+  const Int without_sign = hn::Set(di, static_cast<std::int32_t>(kWithoutSign));
   Int least = hn::Set(di, 0xFFFF);
   Int greatest = hn::Zero(di);
-  std::size_t i = begin;
-  for (; i + lanes <= end; i += lanes) {
-    const Int key =
-        keys_of(hn::LoadU(df, cloud.x.data() + i), hn::LoadU(df, cloud.y.data() + i), inverse);
+  Int magnitude = hn::Zero(di);
+  const auto keys_at = [&](const float* x, const float* y, const float* z) HWY_ATTR {
+    const Float at_x = hn::LoadU(df, x);
+    const Float at_y = hn::LoadU(df, y);
+    const Int key = keys_of(at_x, at_y, inverse);
     least = hn::Min(least, key);
     greatest = hn::Max(greatest, key);
-    hn::StoreU(hn::DemoteTo(dk, key), dk, keys + i);
+    const Int z_bits = hn::And(hn::BitCast(di, hn::LoadU(df, z)), without_sign);
+    const Int x_bits = hn::And(hn::BitCast(di, at_x), without_sign);
+    const Int y_bits = hn::And(hn::BitCast(di, at_y), without_sign);
+    magnitude = hn::Max(hn::Max(magnitude, z_bits), hn::Max(x_bits, y_bits));
+    return hn::DemoteTo(dk, key);
+  };
+  std::size_t i = begin;
+  for (; i + lanes <= end; i += lanes) {
+    hn::StoreU(keys_at(cloud.x.data() + i, cloud.y.data() + i, cloud.z.data() + i), dk, keys + i);
   }
   HWY_ALIGN float x[hn::MaxLanes(df)] = {};
   HWY_ALIGN float y[hn::MaxLanes(df)] = {};
+  HWY_ALIGN float z[hn::MaxLanes(df)] = {};
   if (i < end) {
     for (std::size_t k = 0; k < lanes; ++k) {  // behind the end, the last point again
       x[k] = cloud.x[std::min(i + k, end - 1)];
       y[k] = cloud.y[std::min(i + k, end - 1)];
+      z[k] = cloud.z[std::min(i + k, end - 1)];
     }
     HWY_ALIGN std::uint16_t last[hn::MaxLanes(df)];
-    const Int key = keys_of(hn::Load(df, x), hn::Load(df, y), inverse);
-    least = hn::Min(least, key);
-    greatest = hn::Max(greatest, key);
-    hn::StoreU(hn::DemoteTo(dk, key), dk, last);
+    hn::StoreU(keys_at(x, y, z), dk, last);
     std::copy_n(last, end - i, keys + i);
   }
   return {static_cast<std::uint16_t>(hn::GetLane(hn::MinOfLanes(di, least))),
-          static_cast<std::uint16_t>(hn::GetLane(hn::MaxOfLanes(di, greatest)))};
+          static_cast<std::uint16_t>(hn::GetLane(hn::MaxOfLanes(di, greatest))),
+          static_cast<std::uint32_t>(hn::GetLane(hn::MaxOfLanes(di, magnitude)))};
 }
 
-void place_points(const CloudView& cloud, const std::uint16_t* keys, const KeyedPart& a,
-                  const KeyedPart& b, PointRecord* records) {
+void place_points(const CloudView& cloud, const std::uint16_t* keys, const std::uint32_t* ranks,
+                  std::size_t begin, std::size_t end, const std::uint32_t* starts,
+                  PointRecord* records) {
   const hn::CappedTag<float, 4> df;
   const hn::RebindToUnsigned<decltype(df)> dw;
   const std::size_t lanes = hn::Lanes(df);
   const float* HWY_RESTRICT xs = cloud.x.data();
   const float* HWY_RESTRICT ys = cloud.y.data();
   const float* HWY_RESTRICT zs = cloud.z.data();
-  const auto place_one = [&](std::size_t i, std::uint32_t* next) {
-    records[next[keys[i]]++] = {xs[i], ys[i], zs[i], static_cast<std::uint32_t>(i)};
-  };
-  const auto place_some = [&](std::size_t i, std::uint32_t* next) HWY_ATTR {
+  std::size_t i = begin;
+  for (; i + lanes <= end; i += lanes) {
     alignas(16) std::array<PointRecord, hn::MaxLanes(df)> turned;
     const auto source = hn::Iota(dw, static_cast<std::uint32_t>(i));
     hn::StoreInterleaved4(hn::LoadU(df, xs + i), hn::LoadU(df, ys + i), hn::LoadU(df, zs + i),
                           hn::BitCast(df, source), df, &turned[0].x);
-    for (std::size_t k = 0; k < lanes; ++k) records[next[keys[i + k]]++] = turned[k];
-  };
-  const std::size_t common = std::min(a.end - a.begin, b.end - b.begin);
-  std::size_t done = 0;
-  for (; done + lanes <= common; done += lanes) {
-    place_some(a.begin + done, a.next);
-    place_some(b.begin + done, b.next);
+    for (std::size_t k = 0; k < lanes; ++k) records[starts[keys[i + k]] + ranks[i + k]] = turned[k];
   }
-  for (std::size_t i = a.begin + done; i < a.end; ++i) place_one(i, a.next);
-  for (std::size_t i = b.begin + done; i < b.end; ++i) place_one(i, b.next);
+  for (; i < end; ++i) {
+    records[starts[keys[i]] + ranks[i]] = {xs[i], ys[i], zs[i], static_cast<std::uint32_t>(i)};
+  }
 }
 
 void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
-                    const PointColumns columns) {
+                    const PointColumns columns, bool past_the_cache) {
   const Floats df;
   const hn::ScalableTag<std::uint32_t> dw;
   for (std::size_t i = begin; i < end; i += hn::Lanes(df)) {
@@ -157,11 +162,19 @@ void spread_records(const PointRecord* records, std::size_t begin, std::size_t e
     Float z;
     Float source;
     hn::LoadInterleaved4(df, &records[i].x, x, y, z, source);
-    hn::StoreU(x, df, columns.x + i);
-    hn::StoreU(y, df, columns.y + i);
-    hn::StoreU(z, df, columns.z + i);
-    hn::StoreU(hn::BitCast(dw, source), dw, columns.source + i);
+    if (past_the_cache) {
+      hn::Stream(x, df, columns.x + i);
+      hn::Stream(y, df, columns.y + i);
+      hn::Stream(z, df, columns.z + i);
+      hn::Stream(hn::BitCast(dw, source), dw, columns.source + i);
+    } else {
+      hn::StoreU(x, df, columns.x + i);
+      hn::StoreU(y, df, columns.y + i);
+      hn::StoreU(z, df, columns.z + i);
+      hn::StoreU(hn::BitCast(dw, source), dw, columns.source + i);
+    }
   }
+  if (past_the_cache) hwy::FlushStream();
 }
 
 }  // namespace convexcut::HWY_NAMESPACE
@@ -185,14 +198,15 @@ KeyBounds shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
   return HWY_DYNAMIC_DISPATCH(shell_keys)(cloud, begin, end, inverse_squared_half_width, keys);
 }
 
-void place_points(const CloudView& cloud, const std::uint16_t* keys, const KeyedPart& a,
-                  const KeyedPart& b, PointRecord* records) noexcept {
-  HWY_DYNAMIC_DISPATCH(place_points)(cloud, keys, a, b, records);
+void place_points(const CloudView& cloud, const std::uint16_t* keys, const std::uint32_t* ranks,
+                  std::size_t begin, std::size_t end, const std::uint32_t* starts,
+                  PointRecord* records) noexcept {
+  HWY_DYNAMIC_DISPATCH(place_points)(cloud, keys, ranks, begin, end, starts, records);
 }
 
 void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
-                    const PointColumns& columns) noexcept {
-  HWY_DYNAMIC_DISPATCH(spread_records)(records, begin, end, columns);
+                    const PointColumns& columns, bool past_the_cache) noexcept {
+  HWY_DYNAMIC_DISPATCH(spread_records)(records, begin, end, columns, past_the_cache);
 }
 
 }  // namespace convexcut

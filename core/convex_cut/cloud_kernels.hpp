@@ -22,10 +22,12 @@ inline constexpr std::size_t kKernelPadding = 64;
 [[nodiscard]] std::uint32_t greatest_magnitude_bits(std::span<const float> values) noexcept;
 
 // The keys that ShellIndex sorts by, shell · kBuckets + bucket, of points [begin, end) into
-// keys[begin … end). Returns the least and the greatest of them. Needs begin < end.
+// keys[begin … end). Returns the least and the greatest of them, and the points'
+// greatest_magnitude_bits: where these are not of a number, keys mean nothing. Needs begin < end.
 struct KeyBounds {
   std::uint16_t least = 0xFFFF;
   std::uint16_t greatest = 0;
+  std::uint32_t magnitude_bits = 0;
 };
 KeyBounds shell_keys(const CloudView& cloud, std::size_t begin, std::size_t end,
                      float inverse_squared_half_width, std::uint16_t* keys) noexcept;
@@ -36,17 +38,11 @@ struct alignas(16) PointRecord {
   std::uint32_t source;  // its index in the cloud
 };
 
-// Points [begin, end) of a cloud with their keys, and where the next point of each key goes.
-struct KeyedPart {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-  std::uint32_t* next = nullptr;
-};
-
-// Puts the points of two parts of a cloud to their places, in turn: points that follow each other
-// often have the same key, and would wait for each other's place.
-void place_points(const CloudView& cloud, const std::uint16_t* keys, const KeyedPart& a,
-                  const KeyedPart& b, PointRecord* records) noexcept;
+// Puts points [begin, end) of a cloud to their places: starts[key] is where the first one of each
+// key goes, and ranks[i] how many of point i's key go before it.
+void place_points(const CloudView& cloud, const std::uint16_t* keys, const std::uint32_t* ranks,
+                  std::size_t begin, std::size_t end, const std::uint32_t* starts,
+                  PointRecord* records) noexcept;
 
 // Sorted points.
 struct PointColumns {
@@ -55,9 +51,10 @@ struct PointColumns {
   float* z;
   std::uint32_t* source;
 };
-// Copies records [begin, end) to the same places of the columns. Whole vectors are read and
-// written.
+// Copies records [begin, end) to the same places of the columns, which begin at a cache line, as
+// does `begin`. Whole vectors are read and written; past_the_cache: into memory, where the columns
+// are larger than the caches.
 void spread_records(const PointRecord* records, std::size_t begin, std::size_t end,
-                    const PointColumns& columns) noexcept;
+                    const PointColumns& columns, bool past_the_cache) noexcept;
 
 }  // namespace convexcut

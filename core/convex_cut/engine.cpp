@@ -58,13 +58,19 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
   for (const std::unique_ptr<SliceWorker>& worker : workers_) worker->forget();
   auto work = [&](unsigned member) noexcept {
     SliceWorker& worker = *workers_[member];
-    steps_.count.run([&](std::uint32_t part) { magnitudes_[part] = index_.count(part); });
+    steps_.count.run(member, [&](std::uint32_t part) { magnitudes_[part] = index_.count(part); });
     if (extent_m() > kMaxCoordinateM) return;
-    steps_.lay_out.run([&](std::uint32_t) { index_.lay_out(); });
-    steps_.place.run([&](std::uint32_t part) { index_.place(part); });
-    steps_.spread.run([&](std::uint32_t chunk) { index_.spread(chunk); });
-    steps_.slices.run([&](std::uint32_t group) { process_slices(worker, group, plane_stride); });
-    steps_.write.run([&](std::uint32_t chunk) { write_labels(chunk, labels); });
+    steps_.lay_out.run(member, [&](std::uint32_t) {
+      index_.lay_out();
+      const auto pieces = static_cast<std::uint32_t>(index_.pieces());
+      steps_.spread.prepare(pieces);
+      steps_.write.prepare(pieces);
+    });
+    steps_.place.run(member, [&](std::uint32_t part) { index_.place(part); });
+    steps_.spread.run(member, [&](std::uint32_t piece) { index_.spread(piece); });
+    steps_.slices.run(member,
+                      [&](std::uint32_t group) { process_slices(worker, group, plane_stride); });
+    steps_.write.run(member, [&](std::uint32_t piece) { write_labels(piece, labels); });
   };
   team_.run(work);
   return extent_m() > kMaxCoordinateM ? CutStatus::coordinate_out_of_range : CutStatus::ok;
@@ -72,15 +78,12 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
 
 void ConvexCutEngine::prepare_steps(std::uint32_t plane_stride) noexcept {
   const auto parts = static_cast<std::uint32_t>(index_.parts());
-  const auto chunks = static_cast<std::uint32_t>(index_.chunks());
   const auto planes = static_cast<std::uint32_t>(planes_.size());
   const std::uint32_t cut_planes = (planes + plane_stride - 1) / plane_stride;
   steps_.count.prepare(parts);
   steps_.lay_out.prepare(1);
   steps_.place.prepare(parts);
-  steps_.spread.prepare(chunks);
   steps_.slices.prepare((cut_planes + kPlanesAtOnce - 1) / kPlanesAtOnce);
-  steps_.write.prepare(chunks);
 }
 
 // The greatest magnitude of a coordinate. Infinity and the NaNs are greater than any number.
@@ -100,9 +103,8 @@ void ConvexCutEngine::process_slices(SliceWorker& worker, std::uint32_t group,
 }
 
 // A point is structure when any thread that has come in time for a slice has marked it.
-void ConvexCutEngine::write_labels(std::uint32_t chunk, std::span<Label> labels) noexcept {
-  const std::size_t begin = std::size_t{chunk} * ShellIndex::kChunk;
-  const std::size_t end = std::min(begin + ShellIndex::kChunk, index_.size());
+void ConvexCutEngine::write_labels(std::uint32_t piece, std::span<Label> labels) noexcept {
+  const auto [begin, end] = index_.piece(piece);
   std::array<std::uint8_t, ShellIndex::kChunk> marks{};
   for (const std::unique_ptr<SliceWorker>& worker : workers_) {
     if (!worker->has_begun()) continue;

@@ -23,7 +23,7 @@ namespace convexcut {
 
 class ConvexCutEngine {
  public:
-  // Allocates everything it will ever need: about 35 bytes a point and 110 more for every thread.
+  // Allocates everything it will ever need: about 40 bytes a point and 110 more for every thread.
   // threads: that work on a cloud, with the calling one (0 counts as 1). Throws
   // std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹,
   // std::bad_alloc, and std::system_error when a thread cannot be started.
@@ -48,7 +48,7 @@ class ConvexCutEngine {
   void prepare_steps(std::uint32_t plane_stride) noexcept;
   void process_slices(SliceWorker& worker, std::uint32_t group,
                       std::uint32_t plane_stride) noexcept;
-  void write_labels(std::uint32_t chunk, std::span<Label> labels) noexcept;
+  void write_labels(std::uint32_t piece, std::span<Label> labels) noexcept;
   [[nodiscard]] float extent_m() const noexcept;
 
   ConvexCutParameters parameters_;

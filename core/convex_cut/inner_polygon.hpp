@@ -36,6 +36,8 @@ class InnerPolygon {
   }
   // Behind the last corner: leaves out corners that repeat the one before or do not turn left.
   void close() noexcept;
+  // The same for corners that all turn left, exactly: rounding must not take one for a dent.
+  void close_exact() noexcept { find_turns(); }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] SlicePoint corner(std::size_t k) const noexcept {

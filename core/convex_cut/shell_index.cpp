@@ -22,24 +22,38 @@ static_assert(kKeys <= 0x1'0000, "a key is 16 bits wide");
 constexpr double kTurnSlack = 1e-4;
 constexpr double kRadiusSlack = 1e-5;
 
-// One thread is quicker with four counts, too.
-constexpr unsigned kLeastParts = 2;
+// The columns of more points than this, 8 MB, are not in a cache any more when they are read.
+constexpr std::size_t kMostInCache = std::size_t{1} << 19U;
+
+// How many points of its key each point comes after. Points that follow each other often have the
+// same key and would wait for each other's count: so they are counted in turn at four places.
+void rank_points(const std::uint16_t* keys, std::size_t size, std::uint32_t* counts,
+                 std::uint32_t* ranks) noexcept {
+  const std::size_t quarter = size / 4;
+  for (std::size_t i = 0; i < quarter; ++i) {
+    ranks[i] = counts[keys[i]]++;
+    ranks[i + quarter] = counts[keys[i + quarter]]++;
+    ranks[i + 2 * quarter] = counts[keys[i + 2 * quarter]]++;
+    ranks[i + 3 * quarter] = counts[keys[i + 3 * quarter]]++;
+  }
+  for (std::size_t i = 4 * quarter; i < size; ++i) ranks[i] = counts[keys[i]]++;
+}
 
 }  // namespace
 
 ShellIndex::ShellIndex(double half_width_m, std::size_t max_points, unsigned threads)
     : inverse_squared_half_width_(static_cast<float>(1.0 / (half_width_m * half_width_m))),
-      parts_(std::max(threads, kLeastParts)),
+      parts_(std::max(threads, 1U)),
       keys_(max_points + kKernelPadding),
+      ranks_(max_points + kKernelPadding),
       records_(max_points + kKernelPadding, 0),
       x_(max_points + kKernelPadding, 1),
       y_(max_points + kKernelPadding, 2),
       z_(max_points + kKernelPadding, 3),
       source_(max_points + kKernelPadding, 4),
-      starts_(kKeys + 1) {
-  for (Part& part : parts_) {
-    for (std::vector<std::uint32_t>& counts : part.counts) counts.resize(kKeys);
-  }
+      starts_(kKeys + 1),
+      pieces_(max_points / kChunk + 1 + 3 * kShells) {
+  for (Part& part : parts_) part.counts.resize(kKeys);
   for (std::size_t shell = 0; shell < kShells; ++shell) {
     // u² = r² − v², and |v| < d.
     const double squared_d = half_width_m * half_width_m;
@@ -57,48 +71,33 @@ void ShellIndex::build(const CloudView& cloud) noexcept {
   for (std::size_t part = 0; part < parts(); ++part) static_cast<void>(count(part));
   lay_out();
   for (std::size_t part = 0; part < parts(); ++part) place(part);
-  for (std::size_t chunk = 0; chunk < chunks(); ++chunk) spread(chunk);
+  for (std::size_t k = 0; k < pieces(); ++k) spread(k);
 }
 
 void ShellIndex::begin(const CloudView& cloud) noexcept {
   cloud_ = cloud;
   size_ = cloud.size();
-  const std::size_t runs = 2 * parts_.size();
-  for (std::size_t k = 0; k < runs; ++k) {
-    Part& part = parts_[k / 2];
-    part.runs[k % 2] = {size_ * k / runs, size_ * (k + 1) / runs, part.counts[k % 2].data()};
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    parts_[k].begin = size_ * k / parts_.size();
+    parts_[k].end = size_ * (k + 1) / parts_.size();
   }
 }
 
 std::uint32_t ShellIndex::count(std::size_t part_number) noexcept {
   Part& part = parts_[part_number];
   part.bounds = {};
-  std::uint32_t greatest = 0;
-  for (const KeyedPart& run : part.runs) {
-    std::fill_n(run.next, kKeys, 0U);
-    for (std::size_t begin = run.begin; begin < run.end; begin += kChunk) {
-      const std::size_t end = std::min(begin + kChunk, run.end);
-      for (const std::span<const float> column : {cloud_.x, cloud_.y, cloud_.z}) {
-        greatest = std::max(greatest, greatest_magnitude_bits(column.subspan(begin, end - begin)));
-      }
-      if (greatest > std::bit_cast<std::uint32_t>(kMaxCoordinateM)) return greatest;
-      const KeyBounds bounds =
-          shell_keys(cloud_, begin, end, inverse_squared_half_width_, keys_.data());
-      part.bounds.least = std::min(part.bounds.least, bounds.least);
-      part.bounds.greatest = std::max(part.bounds.greatest, bounds.greatest);
-    }
+  std::fill_n(part.counts.data(), kKeys, 0U);
+  for (std::size_t begin = part.begin; begin < part.end; begin += kChunk) {
+    const std::size_t end = std::min(begin + kChunk, part.end);
+    const KeyBounds bounds =
+        shell_keys(cloud_, begin, end, inverse_squared_half_width_, keys_.data());
+    part.bounds.magnitude_bits = std::max(part.bounds.magnitude_bits, bounds.magnitude_bits);
+    if (bounds.magnitude_bits > std::bit_cast<std::uint32_t>(kMaxCoordinateM)) break;
+    part.bounds.least = std::min(part.bounds.least, bounds.least);
+    part.bounds.greatest = std::max(part.bounds.greatest, bounds.greatest);
+    rank_points(keys_.data() + begin, end - begin, part.counts.data(), ranks_.data() + begin);
   }
-  const auto [a, b] = part.runs;
-  const std::uint16_t* const keys = keys_.data();
-  const std::size_t common = std::min(a.end - a.begin, b.end - b.begin);
-  // In turn, as in place_points().
-  for (std::size_t i = 0; i < common; ++i) {
-    ++a.next[keys[a.begin + i]];
-    ++b.next[keys[b.begin + i]];
-  }
-  for (std::size_t i = a.begin + common; i < a.end; ++i) ++a.next[keys[i]];
-  for (std::size_t i = b.begin + common; i < b.end; ++i) ++b.next[keys[i]];
-  return greatest;
+  return part.bounds.magnitude_bits;
 }
 
 void ShellIndex::lay_out() noexcept {
@@ -113,23 +112,60 @@ void ShellIndex::lay_out() noexcept {
     const std::uint32_t shell_begin = begin;
     for (std::size_t key = shell * kBuckets; key < (shell + 1) * kBuckets; ++key) {
       starts_[key] = begin;
-      for (Part& part : parts_) {
-        for (const KeyedPart& run : part.runs) begin += std::exchange(run.next[key], begin);
-      }
+      for (Part& part : parts_) begin += std::exchange(part.counts[key], begin);
     }
     starts_[(shell + 1) * kBuckets] = begin;
     if (begin != shell_begin) used_shells_[used_shell_count_++] = shell;
   }
+  lay_out_pieces();
 }
 
-void ShellIndex::place(std::size_t part) noexcept {
-  place_points(cloud_, keys_.data(), parts_[part].runs[0], parts_[part].runs[1], records_.data());
+// Each shell is cut where the first point is and opposite.
+void ShellIndex::lay_out_pieces() noexcept {
+  piece_count_ = 0;
+  if (size_ == 0) return;
+  const std::size_t one = keys_[0] % kBuckets;
+  const std::size_t other = (one + kBuckets / 2) % kBuckets;
+  const auto [from, to] = std::minmax(one, other);
+  const std::size_t early = keys_[size_ / 4] % kBuckets;
+  const bool starts_between = early >= from && early < to;
+  for (const bool between : {starts_between, !starts_between}) {
+    for (std::size_t k = 0; k < used_shell_count_; ++k) {
+      const std::uint32_t* const start = starts_.data() + used_shells_[k] * kBuckets;
+      if (between) {
+        add_pieces(start[from], start[to]);
+      } else {
+        add_pieces(start[0], start[from]);
+        add_pieces(start[to], start[kBuckets]);
+      }
+    }
+  }
 }
 
-void ShellIndex::spread(std::size_t chunk) noexcept {
-  const std::size_t begin = chunk * kChunk;
-  spread_records(records_.data(), begin, std::min(begin + kChunk, size_),
-                 {x_.data(), y_.data(), z_.data(), source_.data()});
+// Whole lines of the cache, so that no two pieces share one.
+void ShellIndex::add_pieces(std::uint32_t begin, std::uint32_t end) noexcept {
+  const auto at_line = [this](std::uint32_t position) {
+    constexpr std::uint32_t kWholeLines = 64;
+    return position == size_ ? position : position / kWholeLines * kWholeLines;
+  };
+  const std::uint32_t last = at_line(end);
+  for (std::uint32_t next = at_line(begin); next < last;) {
+    const std::uint32_t piece_end = std::min<std::uint32_t>(next + kChunk, last);
+    pieces_[piece_count_++] = {next, piece_end};
+    next = piece_end;
+  }
+}
+
+void ShellIndex::place(std::size_t part_number) noexcept {
+  const Part& part = parts_[part_number];
+  place_points(cloud_, keys_.data(), ranks_.data(), part.begin, part.end, part.counts.data(),
+               records_.data());
+}
+
+void ShellIndex::spread(std::size_t piece_number) noexcept {
+  const Range range = piece(piece_number);
+  spread_records(records_.data(), range.begin, range.end,
+                 {x_.data(), y_.data(), z_.data(), source_.data()}, size_ > kMostInCache);
 }
 
 ShellIndex::Windows ShellIndex::windows(const SlicingPlane& plane) noexcept {

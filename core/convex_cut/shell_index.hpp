@@ -28,7 +28,7 @@ class ShellIndex {
   // Shell 0: r < √2·d, whose points are candidates of every plane; shell s: √2ˢ·d ≤ r < √2ˢ⁺¹·d;
   // the last one is open. 24 shells reach 2900·d, beyond which a bucket is wider than any slice.
   static constexpr std::size_t kShells = 24;
-  static constexpr std::size_t kBuckets = 1024;  // directions, all round
+  static constexpr std::size_t kBuckets = 2048;  // directions, all round
 
   // Positions [begin, end) of the sorted points.
   struct Range {
@@ -43,7 +43,7 @@ class ShellIndex {
   };
   static constexpr std::size_t kMostRanges = 4 * kShells;
 
-  // Allocates 34 bytes a point. threads: that a build is made for.
+  // Allocates 38 bytes a point. threads: that a build is made for.
   ShellIndex(double half_width_m, std::size_t max_points, unsigned threads);
 
   // Sorts a cloud of at most max_points points whose coordinates have been checked, in the calling
@@ -59,15 +59,19 @@ class ShellIndex {
   //     kMaxCoordinateM, the part has not been counted and the build has to be given up.
   //  3. lay_out
   //  4. place(part) for each part
-  //  5. spread(chunk) for each chunk
+  //  5. spread(piece) for each piece
   void begin(const CloudView& cloud) noexcept;
   [[nodiscard]] std::uint32_t count(std::size_t part_number) noexcept;
   void lay_out() noexcept;
   void place(std::size_t part) noexcept;
-  void spread(std::size_t chunk) noexcept;
+  void spread(std::size_t piece) noexcept;
   [[nodiscard]] std::size_t parts() const noexcept { return parts_.size(); }
-  [[nodiscard]] std::size_t chunks() const noexcept { return (size_ + kChunk - 1) / kChunk; }
-  static constexpr std::size_t kChunk = 4096;  // points
+  // Positions that are worked on at once, known from lay_out() on. Those of the half turn that the
+  // first half of the cloud covers, where it comes from a rotor, are in front: in the cache of the
+  // thread that has placed them.
+  [[nodiscard]] std::size_t pieces() const noexcept { return piece_count_; }
+  [[nodiscard]] Range piece(std::size_t k) const noexcept { return pieces_[k]; }
+  static constexpr std::size_t kChunk = 4096;  // points of a piece, at most
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   // The sorted points, and where each one came from.
@@ -114,12 +118,15 @@ class ShellIndex {
   }
 
  private:
-  // Two runs of the cloud, each with its own counts.
   struct Part {
-    std::array<KeyedPart, 2> runs;
-    std::array<std::vector<std::uint32_t>, 2> counts;  // of each key; then its next place
+    std::size_t begin = 0;  // its points in the cloud
+    std::size_t end = 0;
+    std::vector<std::uint32_t> counts;  // of each key; then the place of the first one
     KeyBounds bounds;
   };
+
+  void lay_out_pieces() noexcept;
+  void add_pieces(std::uint32_t begin, std::uint32_t end) noexcept;
 
   float inverse_squared_half_width_;
   std::array<float, kShells> least_u_m_;  // bounds of |u| of members
@@ -127,13 +134,16 @@ class ShellIndex {
   CloudView cloud_;  // the one that is being sorted
   std::size_t size_ = 0;
   std::vector<Part> parts_;
-  Workspace<std::uint16_t> keys_;  // shell · kBuckets + bucket, in the cloud's order
+  Workspace<std::uint16_t> keys_;   // shell · kBuckets + bucket, in the cloud's order
+  Workspace<std::uint32_t> ranks_;  // of each point among those of its key in the same part
   Column<PointRecord> records_;
   Column<float> x_, y_, z_;
   Column<std::uint32_t> source_;
   std::vector<std::uint32_t> starts_;  // of each key in the sorted points, and the end
   std::array<std::size_t, kShells> used_shells_{};
   std::size_t used_shell_count_ = 0;
+  std::vector<Range> pieces_;
+  std::size_t piece_count_ = 0;
 };
 
 }  // namespace convexcut

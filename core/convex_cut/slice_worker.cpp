@@ -17,8 +17,10 @@ namespace {
 // unit normals, its roundings sum up to less than 1.2e-6·X (design note, section "Tolerance").
 constexpr float kDepthErrorPerExtent = 2e-6F;
 
-// With more candidates or more rounds of widening, the exact hull of the candidates is quicker.
+// With more candidates or more rounds of widening, the exact hull of the candidates is quicker. The
+// first round leaves few of any number, where it can number them.
 constexpr std::size_t kMostCandidates = 1024;
+constexpr std::size_t kMostCandidatesAtFirst = std::size_t{1} << 16U;
 constexpr int kMostRounds = 6;
 
 // The reference's decision: any edge of the hull within the distance.
@@ -111,13 +113,15 @@ Polygon SliceWorker::hull_of_members(const SlicingPlane& plane) noexcept {
   set_edges(polygon_->polygon(), edges_);
   std::size_t candidates =
       find_shallow(edges_, facing_, members(), stretches_, tolerance_m_, shallow());
-  for (int round = 0; round < kMostRounds && candidates <= kMostCandidates; ++round) {
+  std::size_t most_candidates = kMostCandidatesAtFirst;
+  for (int round = 0; round < kMostRounds && candidates <= most_candidates; ++round) {
     // The corners are candidates themselves. When there are no others, all other members are
     // inside.
     if (candidates == polygon_->size() && polygon_->is_convex()) return polygon_->polygon();
     if (!widen_polygon(plane, candidates)) break;
     set_edges(polygon_->polygon(), edges_);
     candidates = drop_deep(edges_, shallow(), candidates, tolerance_m_);
+    most_candidates = kMostCandidates;
   }
   return exact_hull(plane, candidates);
 }
@@ -148,7 +152,7 @@ void SliceWorker::start_with_any_triangle(const SlicingPlane& plane) noexcept {
   }
   polygon_->clear();
   for (std::size_t k = 0; k < found; ++k) polygon_->add(corners[k]);
-  if (found == 3) polygon_->close();
+  if (found == 3) polygon_->close_exact();
 }
 
 // Puts the candidate that is farthest outside of an edge between its corners (W. F. Eddy's and

@@ -4,6 +4,7 @@
 // Does not prove the reference right (reference_test, hull_test), nor the engine fast (bench).
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -75,6 +76,34 @@ TEST_P(EngineOnEverySimdPath, LabelsAreTheReferences) {
           << distribution.name << ", seed " << seed;
     }
   }
+}
+
+TEST_P(EngineOnEverySimdPath, LabelsAreTheReferencesInSlicesOfManyMembers) {
+  test::Random random(9);
+  test::Cloud cloud = test::furnished_room(random, 25'000);
+  for (int i = 0; i < 5'000; ++i) {  // all of them candidates for the hull of a slice
+    const double angle = random.uniform(0.0, 6.28);
+    cloud.add(6.0 * std::cos(angle), random.uniform(-1.0, 1.0), 6.0 * std::sin(angle));
+  }
+  const ConvexCutParameters parameters{.planes = 3, .half_width_m = 1.0};
+  std::vector<Label> expected(cloud.size());
+  std::vector<Label> labels(cloud.size());
+  ASSERT_EQ(reference::label(parameters, cloud.view(), expected), CutStatus::ok);
+  ConvexCutEngine engine(parameters, cloud.size(), 1);
+  ASSERT_EQ(engine.label(cloud.view(), labels), CutStatus::ok);
+  EXPECT_EQ(first_difference(labels, expected), cloud.size());
+}
+
+TEST_P(EngineOnEverySimdPath, LabelsAreTheReferencesWhereOnlyRoundingToFloatBendsALine) {
+  test::Cloud cloud;
+  for (int k = 0; k <= 42; ++k) cloud.add(k * 3.12e-7, k * 1.3569e-5, k * 1.5102e-5);
+  const ConvexCutParameters parameters{.planes = 16, .half_width_m = 1e-4, .hull_distance_m = 0.0};
+  std::vector<Label> expected(cloud.size());
+  std::vector<Label> labels(cloud.size());
+  ASSERT_EQ(reference::label(parameters, cloud.view(), expected), CutStatus::ok);
+  ConvexCutEngine engine(parameters, cloud.size(), 1);
+  ASSERT_EQ(engine.label(cloud.view(), labels), CutStatus::ok);
+  EXPECT_EQ(first_difference(labels, expected), cloud.size());
 }
 
 CONVEXCUT_ON_EVERY_SIMD_PATH(EngineOnEverySimdPath);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,23 +22,45 @@ namespace {
   return std::abs(plane.offset(cloud.x[k], cloud.y[k])) < half_width_m;
 }
 
+void expect_every_point_once(ShellIndex& index, const test::Cloud& cloud) {
+  index.build(cloud.view());
+  ASSERT_EQ(index.size(), cloud.size());
+  std::vector<int> held(cloud.size(), 0);
+  for (std::size_t k = 0; k < cloud.size(); ++k) {
+    const std::uint32_t source = index.source(k);
+    ++held.at(source);
+    ASSERT_EQ(index.points().x[k], cloud.x[source]);
+    ASSERT_EQ(index.points().y[k], cloud.y[source]);
+    ASSERT_EQ(index.points().z[k], cloud.z[source]);
+  }
+  ASSERT_EQ(std::ranges::count(held, 1), std::ssize(held));
+  std::vector<int> in_pieces(cloud.size(), 0);
+  for (std::size_t k = 0; k < index.pieces(); ++k) {
+    const auto [begin, end] = index.piece(k);
+    ASSERT_LE(end - begin, ShellIndex::kChunk);
+    for (std::uint32_t position = begin; position < end; ++position) ++in_pieces.at(position);
+  }
+  ASSERT_EQ(std::ranges::count(in_pieces, 1), std::ssize(in_pieces));
+}
+
 TEST(ShellIndex, HoldsEveryPointOnce) {
   test::Random random(1);
-  ShellIndex index(0.05, 10'000, 1);
-  for (const test::Distribution& distribution : test::distributions()) {
-    const test::Cloud cloud = distribution.make(random);
-    index.build(cloud.view());
-    std::vector<std::uint32_t> source(index.size());
-    for (std::uint32_t k = 0; k < index.size(); ++k) source[k] = index.source(k);
-    for (std::size_t k = 0; k < source.size(); ++k) {
-      ASSERT_EQ(index.points().x[k], cloud.x[source[k]]);
-      ASSERT_EQ(index.points().y[k], cloud.y[source[k]]);
-      ASSERT_EQ(index.points().z[k], cloud.z[source[k]]);
+  for (const unsigned threads : {1U, 3U}) {
+    ShellIndex index(0.05, 10'000, threads);
+    for (const test::Distribution& distribution : test::distributions()) {
+      expect_every_point_once(index, distribution.make(random));
     }
-    std::ranges::sort(source);
-    ASSERT_EQ(source.size(), cloud.size());
-    for (std::size_t k = 0; k < source.size(); ++k) ASSERT_EQ(source[k], k);
   }
+}
+
+TEST(ShellIndex, HoldsEveryPointOfACloudBeyondTheCaches) {
+  test::Random random(3);
+  test::Cloud cloud;
+  for (int i = 0; i < 530'001; ++i) {
+    cloud.add(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-2, 2));
+  }
+  ShellIndex index(0.05, cloud.size(), 2);
+  expect_every_point_once(index, cloud);
 }
 
 TEST(ShellIndex, OffersEveryMemberOfEverySliceOnceWithinBounds) {

@@ -3,6 +3,8 @@
 // Data races show under ThreadSanitizer only: this test is part of its run.
 #include "core/convex_cut/worker_team.hpp"
 
+#include <atomic>
+#include <cstddef>
 #include <thread>
 #include <vector>
 
@@ -11,26 +13,54 @@
 namespace convexcut {
 namespace {
 
-TEST(WorkerTeam, CallsEveryMemberOnceARound) {
+// Of all members, in turns: the caller returns from its call when every other one has come.
+class Visitors {
+ public:
+  explicit Visitors(unsigned size) : calls_(size, 0), threads_(size) {}
+  void operator()(unsigned member) noexcept {
+    ++calls_[member];
+    threads_[member] = std::this_thread::get_id();
+    arrived_.fetch_add(1);
+    while (member == 0 && arrived_.load() % calls_.size() != 0) std::this_thread::yield();
+  }
+  [[nodiscard]] const std::vector<int>& calls() const { return calls_; }
+  [[nodiscard]] const std::vector<std::thread::id>& threads() const { return threads_; }
+
+ private:
+  std::vector<int> calls_;  // plain: run() orders the accesses
+  std::vector<std::thread::id> threads_;
+  std::atomic<std::size_t> arrived_{0};
+};
+
+TEST(WorkerTeam, CallsEveryMemberThatComesOnceARound) {
   for (const unsigned size : {1U, 2U, 3U, 4U}) {
     WorkerTeam team(size);
     ASSERT_EQ(team.size(), size);
-    std::vector<int> calls(size, 0);  // plain: run() orders the accesses
-    auto work = [&](unsigned member) noexcept { ++calls[member]; };
+    Visitors work(size);
     for (int round = 1; round <= 200; ++round) {
       team.run(work);
-      ASSERT_EQ(calls, std::vector<int>(size, round));
+      ASSERT_EQ(work.calls(), std::vector<int>(size, round));
     }
+  }
+}
+
+TEST(WorkerTeam, WaitsForNobodyWhoHasNotCome) {
+  WorkerTeam team(4);
+  std::vector<int> calls(4, 0);
+  auto work = [&](unsigned member) noexcept { ++calls[member]; };
+  for (int round = 1; round <= 2000; ++round) {  // shorter than waking a thread takes
+    team.run(work);
+    ASSERT_EQ(calls[0], round);
+    for (const int of_member : calls) ASSERT_LE(of_member, round);
   }
 }
 
 TEST(WorkerTeam, MemberZeroIsTheCallingThread) {
   WorkerTeam team(2);
-  std::vector<std::thread::id> threads(2);
-  auto work = [&](unsigned member) noexcept { threads[member] = std::this_thread::get_id(); };
+  Visitors work(2);
   team.run(work);
-  EXPECT_EQ(threads[0], std::this_thread::get_id());
-  EXPECT_NE(threads[1], std::this_thread::get_id());
+  EXPECT_EQ(work.threads()[0], std::this_thread::get_id());
+  EXPECT_NE(work.threads()[1], std::this_thread::get_id());
 }
 
 TEST(WorkerTeam, OfNobodyIsTheCallingThreadAlone) {
