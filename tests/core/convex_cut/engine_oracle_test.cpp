@@ -96,7 +96,8 @@ TEST_P(EngineOnEverySimdPath, LabelsAreTheReferencesInSlicesOfManyMembers) {
 
 TEST_P(EngineOnEverySimdPath, LabelsAreTheReferencesWhereOnlyRoundingToFloatBendsALine) {
   test::Cloud cloud;
-  for (int k = 0; k <= 42; ++k) cloud.add(k * 3.12e-7, k * 1.3569e-5, k * 1.5102e-5);
+  for (int k = 1; k <= 42; ++k) cloud.add(k * 3.12e-7, k * 1.3569e-5, k * 1.5102e-5);
+  cloud.add(2.54e-7, 0, 0);
   const ConvexCutParameters parameters{.planes = 16, .half_width_m = 1e-4, .hull_distance_m = 0.0};
   std::vector<Label> expected(cloud.size());
   std::vector<Label> labels(cloud.size());
