@@ -7,7 +7,7 @@ set(CONVEXCUT_STANDARD_HEADERS
 
 # A target that is compiled like those that reuse its headers, or the compiler would refuse them.
 function(convexcut_headers name)
-  cmake_parse_arguments(ARG "TEST" "" "HEADERS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "TEST;COMMANDS" "" "HEADERS;LIBS" ${ARGN})
   set(source ${CMAKE_BINARY_DIR}/${name}.cpp)
   if(ARG_TEST)  # programs are compiled with -fPIE, libraries with -fPIC
     file(CONFIGURE OUTPUT ${source} CONTENT "int main() {}\n")
@@ -16,6 +16,9 @@ function(convexcut_headers name)
   else()
     file(CONFIGURE OUTPUT ${source} CONTENT "")
     add_library(${name} OBJECT EXCLUDE_FROM_ALL ${source})
+  endif()
+  if(ARG_COMMANDS)
+    convexcut_commands_options(${name})
   endif()
   convexcut_compiler_options(${name} PRIVATE)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS})
@@ -31,7 +34,7 @@ function(convexcut_precompile target kind)
     if(kind STREQUAL "library")
       convexcut_headers(${headers} HEADERS <Eigen/Core> <Eigen/Geometry> LIBS Eigen3::Eigen)
     elseif(kind STREQUAL "commands")
-      convexcut_headers(${headers} HEADERS <CLI/CLI.hpp> <Eigen/Core> <Eigen/Geometry> LIBS Eigen3::Eigen CLI11::CLI11)
+      convexcut_headers(${headers} COMMANDS HEADERS <CLI/CLI.hpp> <Eigen/Core> <Eigen/Geometry> LIBS Eigen3::Eigen CLI11::CLI11)
     else()
       convexcut_headers(${headers} TEST HEADERS <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry> <random>
                         LIBS Eigen3::Eigen GTest::gmock)

@@ -1,3 +1,8 @@
+# Command lines are parsed once: sanitized builds need not spend a tenth of their time on optimising that.
+function(convexcut_commands_options name)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
+endfunction()
+
 # convexcut_library(NAME SOURCES a.cpp b.cpp LIBS x y): a static library of this project. Headers are
 # included by their path from the root: #include "core/clock/hour_clock.hpp". Reading headers is most of what a file
 # costs to compile, so with CONVEXCUT_UNITY it is done once for six files; APART: not here, as files share local names or
@@ -10,6 +15,7 @@ function(convexcut_library name)
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${ARG_LIBS} PRIVATE ${ARG_PRIVATE_LIBS})
     if(ARG_COMMANDS)
+      convexcut_commands_options(${name})
       convexcut_precompile(${name} commands)
     else()
       convexcut_precompile(${name} library)

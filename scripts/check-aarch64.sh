@@ -6,6 +6,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install-packages.sh aarch64
-cmake --preset aarch64
+cmake --preset aarch64 -DCONVEXCUT_UNITY=ON
 cmake --build --preset aarch64 -j 2
 [ "${1:-}" = build ] || ctest --preset aarch64 -j 2

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs one libFuzzer target, fuzz_convex_cut three times as long:
+# Runs one libFuzzer target, fuzz_convex_cut three times as long, those of a few bytes' input half as long:
 #                                            scripts/run-fuzzer.sh SECONDS PROGRAM
 # Shows how that went; fails on a finding:      scripts/run-fuzzer.sh --result PROGRAM
 # Seeds come from tests/fuzz/seeds/NAME and, where real recordings are at hand, from those.
@@ -15,7 +15,10 @@ if [ "$seconds" = --result ]; then
   exit
 fi
 # Searching for labels that differ takes longer than for bytes that crash.
-[ "$name" != fuzz_convex_cut ] || seconds=$((seconds * 3))
+case $name in
+  fuzz_convex_cut) seconds=$((seconds * 3)) ;;
+  fuzz_can_signal | fuzz_mt_configuration | fuzz_socketcan) seconds=$(((seconds + 1) / 2)) ;;
+esac
 mkdir -p "$corpus" build/fuzz-findings build/logs
 rm -f "$ok"
 seeds=()
