@@ -112,7 +112,7 @@ for step in "${steps[@]}"; do
     # Not what differs from another test in what is judged, not in the code that runs.
     asan)
       check build-asan build_preset asan -DCONVEXCUT_BENCH=OFF &&
-        ctest_preset asan -E 'HoldsUpNobody/best_effort|PacketLoss.*/Of01|Rotor.*/(9|20)$|replay_robust_test'
+        ctest_preset asan -E 'HoldsUpNobody/best_effort|PacketLoss.*/Of01|Rotor.*/(9|20)$|replay_robust_test|ProcessedGivesTheOrientations'
       ;;
     # Only what runs on several threads: the other tests cannot race. The largest cloud and the paths of the kernels,
     # on which threads work in the same way, would be half of the time.

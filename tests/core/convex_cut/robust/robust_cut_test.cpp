@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/convex_cut/robust/room_cut.hpp"
+#include "tests/support/effort.hpp"
 
 namespace convexcut {
 namespace {
@@ -50,11 +51,13 @@ TEST(RobustCut, RemovesABookcaseWhoseTopIsOutOfViewByTheWallBesideIt) {
 }
 
 TEST(RobustCut, KeepsAPillarFromFloorToCeiling) {
+  CONVEXCUT_LONG_TEST();
   const BoxRoom room = with({{1.6, 0.8, -1.2}, {2.0, 1.2, 1.6}});
   EXPECT_GT(cut(room, {.tilt_deg = 30.0}, 30).share_of(0), 0.9);
 }
 
 TEST(RobustCut, SeesInSeveralRevolutionsWhatEndsBelowTheCeiling) {
+  CONVEXCUT_LONG_TEST();
   const BoxRoom room = with({{1.6, 0.8, -1.2}, {2.0, 1.2, 0.9}});  // higher than it looks at once
   EXPECT_LT(cut(room, {.tilt_deg = 30.0}, 30).share_of(0), 0.1);
 }
