@@ -18,7 +18,6 @@ constexpr float kNeighbourM = 1.0F;
 constexpr float kSameHeightM = 0.1F;
 constexpr float kDeepestRecessM = 0.35F;  // of a window
 constexpr float kSillM = 0.3F;
-constexpr float kNarrowM = 0.8F;
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
 constexpr float kLeastHeightM = 1.0F;  // of a narrow face
@@ -117,7 +116,7 @@ struct PlaneExtent {
   const bool beyond =
       of_wall.begin_m < of_front.begin_m - kGoesOnM || of_wall.end_m > of_front.end_m + kGoesOnM;
   const bool above = top_near(model, wall, front, kNeighbourM) > front.top_m + kGoesOnM;
-  const bool wide = front.end_m - front.begin_m > kNarrowM;
+  const bool wide = front.width_m() > kNarrowM;
   return (beyond || above) && (wide || fixture);
 }
 
@@ -143,7 +142,7 @@ struct PlaneExtent {
 // Whether its plane has a wide part that is a wall.
 [[nodiscard]] bool is_on_wider(const Model& model, const WallSegment& face) noexcept {
   return std::any_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& s) {
-    return s.plane == face.plane && s.accepted && !s.narrow && s.end_m - s.begin_m > kNarrowM;
+    return s.plane == face.plane && s.accepted && !s.narrow && s.width_m() > kNarrowM;
   });
 }
 
@@ -160,13 +159,13 @@ void reject_furniture(Model& model) noexcept {
           s.furniture = true;
         }
       }
-      s.narrow = !tall && s.end_m - s.begin_m < kNarrowM;
+      s.narrow = !tall && s.width_m() < kNarrowM;
     }
   }
   for (WallSegment& s : model.segments) {
     // Short things that hang are lamps.
     if (s.accepted && s.bottom_m > model.floor_z + kHangingM && !std::isinf(model.floor_z) &&
-        s.end_m - s.begin_m < kLeastBeamM) {
+        s.width_m() < kLeastBeamM) {
       s.accepted = false;
     }
     if (!s.accepted || !s.narrow || is_on_wider(model, s)) continue;

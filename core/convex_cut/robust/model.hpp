@@ -55,7 +55,12 @@ struct WallSegment {
   bool accepted = false;
   bool narrow = false;     // may be a pillar or a person
   bool furniture = false;  // a wall is close behind
+
+  [[nodiscard]] float width_m() const noexcept { return end_m - begin_m; }
 };
+
+// What is narrower may be a pillar, a person or the side of furniture.
+inline constexpr float kNarrowM = 0.8F;
 
 struct Model {
   std::vector<Surfel> surfels;

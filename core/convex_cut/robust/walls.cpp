@@ -14,7 +14,6 @@ constexpr std::size_t kMostSegments = 2'048;
 constexpr std::int32_t kGap = 2;      // columns within a run that may be missing
 constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
 constexpr float kToCeilingM = 0.35F;
-constexpr float kNarrowM = 0.8F;
 constexpr float kWidestScreenM = 2.5F;
 constexpr float kBelowCeilingM = 0.45F;
 constexpr float kRough = 2.5F;  // spread², relative to the noise²
@@ -23,11 +22,9 @@ constexpr float kMarginM = 0.2F;  // to floor and ceiling
 constexpr std::uint32_t kLeastCells = 4;
 constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
 
-[[nodiscard]] float width_of(const WallSegment& s) noexcept { return s.end_m - s.begin_m; }
-
 // Fronts of books, folds of curtains. Of narrow faces the shape is told elsewhere.
 [[nodiscard]] bool is_rough(const Model& model, const WallSegment& s) noexcept {
-  return width_of(s) > kNarrowM && model.planes[s.plane].spread2 > kRough * model.noise2;
+  return s.width_m() > kNarrowM && model.planes[s.plane].spread2 > kRough * model.noise2;
 }
 
 // Whether rays pass columns [first, end) in most rows between two heights.
@@ -52,8 +49,8 @@ constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
 // Whether rays pass on both sides of what ends below the ceiling: a board on wheels, a screen.
 [[nodiscard]] bool stands_free(const Model& model, const PlaneGrids& grids,
                                const WallSegment& s) noexcept {
-  if (s.top_m > model.ceiling_z - kBelowCeilingM || width_of(s) > kWidestScreenM ||
-      width_of(s) < kNarrowM) {
+  if (s.top_m > model.ceiling_z - kBelowCeilingM || s.width_m() > kWidestScreenM ||
+      s.width_m() < kNarrowM) {
     return false;
   }
   const bool on_a_wall =

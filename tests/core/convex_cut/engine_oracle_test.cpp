@@ -58,6 +58,16 @@ TEST_P(EngineOracle, LabelsAreTheReferencesForEveryThreadCount) {
   }
 }
 
+// Of one thread, with the instruction set at hand.
+void expect_labels_of_reference(const ConvexCutParameters& parameters, const test::Cloud& cloud) {
+  std::vector<Label> expected(cloud.size());
+  std::vector<Label> labels(cloud.size());
+  ASSERT_EQ(reference::label(parameters, cloud.view(), expected), CutStatus::ok);
+  ConvexCutEngine engine(parameters, cloud.size(), 1);
+  ASSERT_EQ(engine.label(cloud.view(), labels), CutStatus::ok);
+  ASSERT_EQ(first_difference(labels, expected), cloud.size());
+}
+
 class EngineOnEverySimdPath : public test::EverySimdPath {};
 
 TEST_P(EngineOnEverySimdPath, LabelsAreTheReferences) {
@@ -67,13 +77,8 @@ TEST_P(EngineOnEverySimdPath, LabelsAreTheReferences) {
       const test::Cloud cloud = distribution.make(random);
       const ConvexCutParameters parameters =
           seed == 100 ? ConvexCutParameters{} : any_parameters(random);
-      std::vector<Label> expected(cloud.size());
-      ASSERT_EQ(reference::label(parameters, cloud.view(), expected), CutStatus::ok);
-      ConvexCutEngine engine(parameters, cloud.size(), 1);
-      std::vector<Label> labels(cloud.size());
-      ASSERT_EQ(engine.label(cloud.view(), labels), CutStatus::ok);
-      ASSERT_EQ(first_difference(labels, expected), cloud.size())
-          << distribution.name << ", seed " << seed;
+      SCOPED_TRACE(std::string(distribution.name) + ", seed " + std::to_string(seed));
+      ASSERT_NO_FATAL_FAILURE(expect_labels_of_reference(parameters, cloud));
     }
   }
 }
@@ -86,12 +91,7 @@ TEST_P(EngineOnEverySimdPath, LabelsAreTheReferencesInSlicesOfManyMembers) {
     cloud.add(6.0 * std::cos(angle), random.uniform(-1.0, 1.0), 6.0 * std::sin(angle));
   }
   const ConvexCutParameters parameters{.planes = 3, .half_width_m = 1.0};
-  std::vector<Label> expected(cloud.size());
-  std::vector<Label> labels(cloud.size());
-  ASSERT_EQ(reference::label(parameters, cloud.view(), expected), CutStatus::ok);
-  ConvexCutEngine engine(parameters, cloud.size(), 1);
-  ASSERT_EQ(engine.label(cloud.view(), labels), CutStatus::ok);
-  EXPECT_EQ(first_difference(labels, expected), cloud.size());
+  expect_labels_of_reference(parameters, cloud);
 }
 
 TEST_P(EngineOnEverySimdPath, LabelsAreTheReferencesWhereOnlyRoundingToFloatBendsALine) {
@@ -99,12 +99,7 @@ TEST_P(EngineOnEverySimdPath, LabelsAreTheReferencesWhereOnlyRoundingToFloatBend
   for (int k = 1; k <= 42; ++k) cloud.add(k * 3.12e-7, k * 1.3569e-5, k * 1.5102e-5);
   cloud.add(2.54e-7, 0, 0);
   const ConvexCutParameters parameters{.planes = 16, .half_width_m = 1e-4, .hull_distance_m = 0.0};
-  std::vector<Label> expected(cloud.size());
-  std::vector<Label> labels(cloud.size());
-  ASSERT_EQ(reference::label(parameters, cloud.view(), expected), CutStatus::ok);
-  ConvexCutEngine engine(parameters, cloud.size(), 1);
-  ASSERT_EQ(engine.label(cloud.view(), labels), CutStatus::ok);
-  EXPECT_EQ(first_difference(labels, expected), cloud.size());
+  expect_labels_of_reference(parameters, cloud);
 }
 
 CONVEXCUT_ON_EVERY_SIMD_PATH(EngineOnEverySimdPath);
