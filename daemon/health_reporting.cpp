@@ -24,7 +24,7 @@ HealthReporting::HealthReporting(const Participant& participant, const config::C
     : inputs_(inputs),
       problems_(std::move(problems)),
       totals_(std::move(totals)),
-      monitor_(report.stages),
+      monitor_(report.stages, inputs.pace()),
       publisher_(participant, config.dds),
       metrics_(make_server(config.metrics)) {
   inputs.add_sources(monitor_, lidar_packets);
@@ -32,7 +32,11 @@ HealthReporting::HealthReporting(const Participant& participant, const config::C
   monitor_.add_clock("imu", report.imu_clock);
 }
 
-void HealthReporting::poll() { monitor_.poll(SteadyTime::clock::now(), totals_(), problems_); }
+void HealthReporting::poll() {
+  // That nothing comes after the end of a recording is no fault. Relaxed: nothing is read by it.
+  if (inputs_.lidar_ended().load(std::memory_order_relaxed)) return;
+  monitor_.poll(SteadyTime::clock::now(), totals_(), problems_);
+}
 
 HealthSnapshot HealthReporting::snapshot() const {
   return monitor_.snapshot(inputs_.clock().now(), SteadyTime::clock::now());

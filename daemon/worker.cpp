@@ -21,6 +21,12 @@ constexpr std::size_t kPacketsAtOnce = 16;
 // What was received before the host's clock was set has left the sockets and the rings by then.
 constexpr Duration kStepGuard = std::chrono::seconds{1};
 
+// When a scan that is handed over at `now` could be known to be whole. What the end of a recording
+// cut off could have gone on until then: it is not late for having waited.
+HostTime whole_at(const LevelledScan& scan, HostTime now) noexcept {
+  return scan.end == ScanEnd::end_of_input ? now : scan.last_firing;
+}
+
 }  // namespace
 
 Worker::Worker(const PipelineOptions& pipeline, const WorkerOptions& options, Clock& clock,
@@ -220,7 +226,7 @@ unsigned Worker::hand_over_all(HostTime now) noexcept {
     Result* slot = results_.claim();
     if (slot == nullptr) return count;  // the scan waits in the pipeline
     if (!hand_over(now, *slot)) return count;
-    if (clock_.paced()) slot->due = clock_.steady_at(slot->scan.last_firing + options_.latency);
+    if (clock_.paced()) slot->due = clock_.steady_at(whole_at(slot->scan, now) + options_.latency);
     counters_.dropped_scans.add(pipeline_.scans_dropped() - counters_.dropped_scans.value());
     results_.commit();
     ++count;

@@ -4,6 +4,13 @@
 #include <utility>
 
 namespace convexcut::daemon {
+namespace {
+
+Duration stretched(Duration span, double pace) noexcept {
+  return std::chrono::duration_cast<Duration>(span / pace);
+}
+
+}  // namespace
 
 StageSummary summary_of(const LatencyHistogram& histogram) noexcept {
   StageSummary summary;
@@ -25,8 +32,13 @@ std::string joined(const std::vector<Reason>& reasons) {
   return text;
 }
 
+HealthMonitor::HealthMonitor(const StageHistograms& stages, double pace)
+    : stages_(stages),
+      source_limits_({.stale_after = stretched(SourceLimits{}.stale_after, pace)}),
+      daemon_({.silent_after = stretched(DaemonLimits{}.silent_after, pace)}) {}
+
 void HealthMonitor::add_source(std::string name, bool required, ReadSource read) {
-  sources_.push_back({SourceMonitor(std::move(name), required), std::move(read)});
+  sources_.push_back({SourceMonitor(std::move(name), required, source_limits_), std::move(read)});
 }
 
 void HealthMonitor::add_clock(std::string name, const ClockGauge& gauge) {

@@ -24,9 +24,9 @@ class HealthMonitor {
  public:
   using ReadSource = std::function<SourceReading()>;
 
-  // `stages` outlives the monitor.
-  explicit HealthMonitor(const StageHistograms& stages, const DaemonLimits& limits = {})
-      : stages_(stages), daemon_(limits) {}
+  // `stages` outlives the monitor. `pace`, in (0, 1]: how much slower than usual input and results
+  // come, because a recording is played slowly; the limits of silence are longer by as much.
+  explicit HealthMonitor(const StageHistograms& stages, double pace = 1.0);
 
   // Before the first poll. `read` is called by poll().
   void add_source(std::string name, bool required, ReadSource read);
@@ -51,6 +51,7 @@ class HealthMonitor {
   };
 
   const StageHistograms& stages_;
+  SourceLimits source_limits_;
   DaemonMonitor daemon_;
   std::vector<Source> sources_;
   std::vector<Clock> clocks_;

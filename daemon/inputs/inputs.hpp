@@ -60,6 +60,9 @@ class Inputs {
   // Any thread.
   [[nodiscard]] virtual InputTotals totals() const noexcept = 0;
 
+  // How much slower than the sensors' time the input comes: 1 when live, up to 1 from a recording.
+  [[nodiscard]] virtual double pace() const noexcept { return 1.0; }
+
   // Tells of each source how it is doing; `lidar_packets` is what became of the lidar's. Both
   // outlive this. Once, before health is first asked for.
   virtual void add_sources(HealthMonitor& health, const SequencerCounters& lidar_packets) const = 0;

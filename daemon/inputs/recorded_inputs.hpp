@@ -20,6 +20,9 @@ class RecordedInputs final : public Inputs {
   [[nodiscard]] std::vector<InputThread> start() override;
   [[nodiscard]] Clock& clock() noexcept override { return clock_; }
   [[nodiscard]] InputTotals totals() const noexcept override;
+  [[nodiscard]] double pace() const noexcept override {
+    return clock_.paced() && rate_ < 1.0 ? rate_ : 1.0;
+  }
   void add_sources(HealthMonitor& health, const SequencerCounters& lidar_packets) const override;
   void log_start() const override;
   void log_end() const override;

@@ -51,6 +51,27 @@ TEST(HealthMonitor, SnapshotHasWhatItsPartsSaid) {
   EXPECT_EQ(snapshot.stages[static_cast<std::size_t>(Stage::cut)].count, 0U);
 }
 
+TEST(HealthMonitor, ARecordingPlayedSlowlyMayBeSilentForLonger) {
+  const StageHistograms stages;
+  for (const double pace : {1.0, 0.05}) {
+    HealthMonitor monitor(stages, pace);
+    SourceReading reading{live::LinkState::open, 0, 1, 0, 0};
+    monitor.add_source("lidar", true, [&reading] { return reading; });
+    const SteadyTime start{seconds{50}};
+    // A packet a second and a result every two seconds, 20 times slower than a lidar's revolutions.
+    HealthCounters totals;
+    for (int i = 0; i < 60; ++i) {
+      reading.valid += i % 10 == 0 ? 1 : 0;
+      totals.results += i % 20 == 0 ? 1 : 0;
+      monitor.poll(start + i * milliseconds{100}, totals);
+    }
+    EXPECT_EQ(monitor.state(), pace == 1.0 ? DaemonState::faulty : DaemonState::ok) << pace;
+    // Silence is silence in the end.
+    monitor.poll(start + seconds{60}, totals);
+    EXPECT_EQ(monitor.state(), DaemonState::faulty) << pace;
+  }
+}
+
 TEST(HealthMonitor, BeforeTheFirstPollItIsStarting) {
   const StageHistograms stages;
   const HealthMonitor monitor(stages);

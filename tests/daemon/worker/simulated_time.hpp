@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "daemon/clock/clock.hpp"
@@ -82,6 +83,8 @@ class SimulatedWorker {
 
   // Whether the sensor sends at a time since the start.
   std::function<bool(Duration)> powered = [](Duration) { return true; };
+  // When the input is over, as a recording's is; never without it.
+  std::optional<Duration> input_ends;
   // How much later than normal a packet comes that was sent at a time since the start.
   std::function<Duration(Duration)> delay = [](Duration) { return Duration{0}; };
   // Called as time passes.
@@ -99,6 +102,7 @@ class SimulatedWorker {
     Worker simulated(options, {.reduce_effort = false}, clock, returns, samples, angles, results);
     worker = &simulated;
     simulated.run(stop, lidar_ended, imu_ended);
+    if (lidar_ended) take();  // what it handed over without waiting once more
     counters = {simulated.counters().empty_results.value(),
                 simulated.counters().superseded_scans.value(),
                 simulated.counters().dropped_scans.value(),
@@ -129,7 +133,12 @@ class SimulatedWorker {
     const Duration elapsed = clock.steady_now() - begin_;
     at(elapsed);
     if (elapsed >= span_) stop = true;
-    while (arrival(next_packet_) <= elapsed) receive(next_packet_++);
+    while (!lidar_ended && arrival(next_packet_) <= elapsed) receive(next_packet_++);
+    if (input_ends && elapsed >= *input_ends) lidar_ended = true;
+    take();
+  }
+
+  void take() {
     results.consume([this](Result& result) noexcept {
       const LevelledScan& scan = result.scan;
       taken.push_back({scan.index, scan.end, scan.stamp, scan.last_firing, scan.size(), result.due,

@@ -115,6 +115,23 @@ TEST(WorkerGrid, ASensorThatGoesAndComesMakesNoDifferenceToTheRate) {
   expect_about(count(sim.taken, ScanEnd::end_of_input), 1);
 }
 
+// The rest of a revolution at the end of a recording waits for the worker's next instant, when the
+// end is seen: it was not to be had before.
+TEST(WorkerGrid, TheEndOfARecordingMakesNoScanLate) {
+  SimulatedWorker sim;
+  sim.lidar.rate_hz = 10.0;
+  sim.input_ends = milliseconds{5'030};
+  sim.run(seconds{60});
+  ASSERT_GT(sim.taken.size(), 48U);
+  EXPECT_EQ(sim.taken.back().end, ScanEnd::end_of_input);
+  EXPECT_GT(sim.taken.back().points, 0U);
+  for (const Taken& t : sim.taken) EXPECT_LT(t.at, t.due) << t.index;
+  // A whole revolution is due as ever.
+  const Taken& whole = sim.taken[sim.taken.size() - 2];
+  EXPECT_EQ(whole.end, ScanEnd::cut);
+  EXPECT_EQ(sim.clock.host_at(whole.due) - whole.last_firing, kLatency);
+}
+
 TEST(WorkerGrid, ChangesOfSpeedNeitherStopNorDoubleResults) {
   SimulatedWorker sim;
   sim.lidar.rate_hz = 10.0;
