@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "replay/lidar_inspector.hpp"
+#include "replay/info/lidar_inspector.hpp"
 
 #include <algorithm>
 #include <limits>
