@@ -19,10 +19,10 @@ void cut(const CloudView& cloud, double angle_rad, double half_width_m, Slice& s
   slice.points.clear();
   slice.indices.clear();
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double x = cloud.x[i];
-    const double y = cloud.y[i];
+    const auto x = static_cast<double>(cloud.x[i]);
+    const auto y = static_cast<double>(cloud.y[i]);
     if (std::abs(-x * sine + y * cosine) < half_width_m) {
-      slice.points.push_back({x * cosine + y * sine, cloud.z[i]});
+      slice.points.push_back({x * cosine + y * sine, static_cast<double>(cloud.z[i])});
       slice.indices.push_back(i);
     }
   }

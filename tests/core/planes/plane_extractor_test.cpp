@@ -285,7 +285,7 @@ TEST(PlaneExtractor, AllOfAPatchSaysIsTrueOfItsPoints) {
     if (patch == kNoPatch) continue;
     ASSERT_LT(patch, found.patches.size());
     ++counted[patch];
-    const Vec3 p(cloud.view().x[i], cloud.view().y[i], cloud.view().z[i]);
+    const Vec3 p = Eigen::Vector3f(cloud.x[i], cloud.y[i], cloud.z[i]).cast<double>();
     // 3 σ from the plane before the last refit.
     EXPECT_LT(std::abs(found.patches[patch].plane.signed_distance_m(p)), 0.065);
   }

@@ -130,11 +130,12 @@ TEST(Recording, ImuFramesHoldTheMotionAtTheirOwnTimes) {
     const Duration counted = 100us * (frame.ticks - frames.front().ticks);
     const Duration sampled = -options.imu_margin + options.serial_imu.clock.true_time(counted);
     const Quaternion truth = motion.pose_at(sampled).q_world_from_lidar;
-    const Quaternion told(double{frame.wxyz[0]}, double{frame.wxyz[1]}, double{frame.wxyz[2]},
-                          double{frame.wxyz[3]});
+    const Quaternion told =
+        Eigen::Quaternionf(frame.wxyz[0], frame.wxyz[1], frame.wxyz[2], frame.wxyz[3])
+            .cast<double>();
     // Floats; 1 µs at 45 °/s would be 8e-7 rad.
     ASSERT_LT(truth.angularDistance(told.normalized()), 4e-7);
-    ASSERT_NEAR(double{frame.rate[2]},
+    ASSERT_NEAR(static_cast<double>(frame.rate[2]),
                 Degrees{45}.to_radians().value * std::cos(25 * std::numbers::pi / 180), 0.06);
   }
 }

@@ -78,7 +78,7 @@ TEST(Sensor, RangesScatterByTheNoiseAndComeInSteps) {
   double squares = 0;
   double n = 0;
   for_each_shot(empty_room(), options, kRevolution, [&](const Shot& shot) {
-    const double off = shot.first.range_2mm * 0.002 - double{shot.first.true_range_m};
+    const double off = shot.first.range_2mm * 0.002 - static_cast<double>(shot.first.true_range_m);
     sum += off;
     squares += off * off;
     n += 1;
@@ -92,7 +92,8 @@ TEST(Sensor, RangesScatterByTheNoiseAndComeInSteps) {
 
 TEST(Sensor, WithoutNoiseARangeIsRoundedToItsStep) {
   for_each_shot(empty_room(), perfect(), 200, [](const Shot& shot) {
-    ASSERT_NEAR(shot.first.range_2mm * 0.002, double{shot.first.true_range_m}, 0.0010001);
+    ASSERT_NEAR(shot.first.range_2mm * 0.002, static_cast<double>(shot.first.true_range_m),
+                0.0010001);
     ASSERT_EQ(shot.first.label, SurfaceLabel::structure);
     ASSERT_EQ(shot.first.flags, 0);
   });
@@ -109,7 +110,7 @@ TEST(Sensor, IsolatedGhostsAreTheirShareAndLieBeforeAndBehind) {
     ASSERT_EQ(shot.first.surface, kNoSurface);
     ghosts += 1;
     const double wall = to_side(kLidar, shot.direction_lidar, {0, 0, 0}, kRoom);
-    behind += double{shot.first.true_range_m} > wall ? 1 : 0;
+    behind += static_cast<double>(shot.first.true_range_m) > wall ? 1 : 0;
   });
   const double shots = kRevolution * 32.0;
   EXPECT_NEAR(ghosts / shots, 0.01, 4 * std::sqrt(0.01 * 0.99 / shots));
