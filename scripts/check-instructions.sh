@@ -10,6 +10,7 @@ declare -A bound=(
   [level]=28
   [label]=348
   [stream]=859
+  [robust]=3000
 )
 
 # instructions STAGE ROUNDS
@@ -19,7 +20,7 @@ instructions() {
 }
 
 bad=0
-for stage in decode level label stream; do
+for stage in decode level label stream robust; do
   points=$(build/release/bin/bench_instructions "$stage" 1 avx2)
   per_point=$((($(instructions "$stage" 3) - $(instructions "$stage" 1)) / (2 * points)))
   if [ "${1:-}" = --set ]; then

@@ -31,6 +31,14 @@ def table(cases):
     return "\n".join(lines)
 
 
+def robust_table(rows):
+    lines = ["| scene | points | voxels | Qhull ms | robust ms | p99 | max | Qhull ÷ robust |", "|---|---|---|---|---|---|---|---|"]
+    for row in rows:
+        lines.append(f"| {row['scene']} | {row['points']:,} | {row['voxels']:,} | {row['qhull_ms']:.1f} | {row['robust_ms']:.1f} "
+                     f"| {row['robust_p99_ms']:.1f} | {row['robust_max_ms']:.1f} | {row['qhull_ms'] / row['robust_ms']:.1f} |")
+    return "\n".join(lines)
+
+
 # From the datagrams to the labels, in order; the peers are the plain decoder and the batch.
 STAGES = [("plain_decode", "decoder with point structures and tables (peer)"), ("plain_decode_level", "… and levelling"),
           ("decode", "decode: datagrams to columns"), ("cut", "cut into scans"), ("level", "level by the IMU's track"),
@@ -94,8 +102,8 @@ def main():
     report = json.loads(pathlib.Path(sys.argv[1]).read_text())
     # Of the many sizes, those with all peers.
     rows = table([c for c in report["cases"] if "cgal_ms" in c or not c["name"].startswith("size_")])
-    print(rows)
-    print()
+    robust = robust_table(report["robust"])
+    print(f"{rows}\n\n{robust}\n")
     for key, value in report.items():
         if key.startswith("ratio"):
             print(f"{key} = {value}")
@@ -122,6 +130,13 @@ engine's labels differ from those of Algorithm 1 with Qhull in
 The plot has {sum(c['name'].startswith('size_') for c in report['cases'])} sizes from 10,000 to 3 million points, the table those at which all peers ran.
 
 {rows}
+
+## The robust method
+
+On one thread, its window of 30 revolutions full, in two of the simulator's scenes (`docs/scenes.md`; tilt 30°, turning by 6° a
+revolution), in turns with Algorithm 1 with Qhull on a revolution of the same scene.
+
+{robust}
 
 ## Stages
 

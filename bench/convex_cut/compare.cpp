@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The engine beside the paper's Algorithm 1 with hulls of Qhull, CGAL and a monotone chain, and
-// beside one pass over the cloud's memory, on the same clouds in the same run. Prints one JSON
-// object; bench.sh makes tables and plots of it.
+// beside one pass over the cloud's memory, on the same clouds in the same run; then the robust
+// method beside Algorithm 1 with Qhull. Prints one JSON object; bench.sh makes tables and plots.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,6 +16,7 @@
 
 #include "bench/convex_cut/literal.hpp"
 #include "bench/convex_cut/measure.hpp"
+#include "bench/convex_cut/robust_compare.hpp"
 #include "bench/convex_cut/room_cloud.hpp"
 #include "bench/program.hpp"
 #include "core/convex_cut/engine.hpp"
@@ -134,6 +135,27 @@ void print(const CaseResult& result, bool last) {
   return all;
 }
 
+void print(const RobustResult& result, bool last) {
+  std::printf("    {\"scene\": \"%s\", \"points\": %zu, \"voxels\": %zu", result.scene.c_str(),
+              result.points, result.voxels);
+  for (const Timing& t : result.timings) {
+    std::printf(R"(, "%s_ms": %.4f, "%s_p99_ms": %.4f, "%s_max_ms": %.4f)", t.name.c_str(),
+                t.median_ms, t.name.c_str(), t.p99_ms, t.name.c_str(), t.max_ms);
+  }
+  std::printf("}%s\n", last ? "" : ",");
+}
+
+void compare_robust_in_scenes(bool quick) {
+  const unsigned rounds = quick ? 6 : 25;
+  const RobustResult room = compare_robust("office", rounds);
+  const RobustResult hall = compare_robust("hall", rounds);
+  std::printf("  \"robust\": [\n");
+  print(room, false);
+  print(hall, true);
+  std::printf("  ],\n  \"ratio_robust_1t\": %.2f,\n  \"ratio_robust_1t_hall\": %.2f,\n",
+              room.ratio(), hall.ratio());
+}
+
 int program(int argc, char** argv) {
   CLI::App app("Compares the engine with Algorithm 1 as the paper states it", "convex_cut_compare");
   bool quick = false;
@@ -159,8 +181,10 @@ int program(int argc, char** argv) {
   const auto ratio = [&](const std::string& name, const char* engine) {
     return median_ms(results.at(name), "qhull") / median_ms(results.at(name), engine);
   };
-  std::printf("  ],\n  \"ratio_1t_69k\": %.2f,\n  \"ratio_2t_69k\": %.2f,\n",
-              ratio("69k", "engine_1t"), ratio("69k", "engine_2t"));
+  std::printf("  ],\n");
+  compare_robust_in_scenes(quick);
+  std::printf("  \"ratio_1t_69k\": %.2f,\n  \"ratio_2t_69k\": %.2f,\n", ratio("69k", "engine_1t"),
+              ratio("69k", "engine_2t"));
   std::printf("  \"ratio_1t_69k_tilt30\": %.2f,\n  \"ratio_2t_69k_tilt30\": %.2f,\n",
               ratio("69k_tilt30", "engine_1t"), ratio("69k_tilt30", "engine_2t"));
   std::printf("  \"ratio_1t_3m\": %.2f,\n  \"ratio_2t_3m\": %.2f\n}\n", ratio("3m", "engine_1t"),

@@ -3,7 +3,7 @@
 // Does one stage some times over, for a tool that counts its instructions: two runs with different
 // numbers of rounds tell those of a round (scripts/check-instructions.sh).
 //
-// bench_instructions decode|level|label|stream ROUNDS SIMD: prints the points of a round.
+// bench_instructions decode|level|label|stream|robust ROUNDS SIMD: prints the points of a round.
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -15,6 +15,7 @@
 #include "bench/convex_cut/room_cloud.hpp"
 #include "bench/stages/revolution.hpp"
 #include "core/convex_cut/engine.hpp"
+#include "core/convex_cut/robust/robust_cut.hpp"
 #include "core/convex_cut/streaming_cut.hpp"
 #include "core/return_batch.hpp"
 #include "core/scan/levelling.hpp"
@@ -88,11 +89,31 @@ using Round = std::function<std::size_t()>;
   };
 }
 
+// With its window full.
+[[nodiscard]] Round robust() {
+  constexpr std::uint32_t kWindow = 3;
+  const auto cloud = std::make_shared<RoomCloud>(room_cloud(kFirings, 30.0));
+  const auto labels = std::make_shared<std::vector<Label>>(cloud->x.size());
+  RobustParameters parameters;
+  parameters.window = kWindow;
+  const auto cut = std::make_shared<RobustCut>(parameters, labels->size());
+  const Round round = [cloud, labels, cut] {
+    static_cast<void>(cut->label(cloud->view(), *labels));
+    return labels->size();
+  };
+  for (std::uint32_t i = 0; i < kWindow; ++i) round();
+  return round;
+}
+
 int program(const std::vector<std::string>& arguments) {
-  const std::map<std::string, Round (*)()> stages{
-      {"decode", decoding}, {"level", levelling}, {"label", labelling}, {"stream", streaming}};
+  const std::map<std::string, Round (*)()> stages{{"decode", decoding},
+                                                  {"level", levelling},
+                                                  {"label", labelling},
+                                                  {"stream", streaming},
+                                                  {"robust", robust}};
   if (arguments.size() != 3 || !stages.contains(arguments[0]) || !use_simd_path(arguments[2])) {
-    std::fputs("bench_instructions: expected decode|level|label|stream ROUNDS SIMD\n", stderr);
+    std::fputs("bench_instructions: expected decode|level|label|stream|robust ROUNDS SIMD\n",
+               stderr);
     return 2;
   }
   const Round round = stages.at(arguments[0])();
