@@ -11,6 +11,7 @@ namespace {
 constexpr std::int32_t kBias = 1 << 20;
 constexpr unsigned kBits = 21;
 constexpr VoxelKey kMask = (VoxelKey{1} << kBits) - 1;
+constexpr std::size_t kLeastBlocks = 1'024;
 
 }  // namespace
 
@@ -38,52 +39,74 @@ Vec3f centre_of(const Lattice& place) noexcept {
   return {middle(place[0]), middle(place[1]), middle(place[2])};
 }
 
-VoxelMap::VoxelMap(std::size_t capacity)
-    : slots_(std::bit_ceil(std::max<std::size_t>(2 * capacity, 2)), kNone) {
+VoxelMap::VoxelMap(std::size_t capacity) {
+  const std::size_t blocks = capacity / 2 + kLeastBlocks;
+  slots_.resize(std::bit_ceil(2 * blocks));
+  places_.reserve((blocks + 1) * kBlock);
+  block_voxels_.reserve(blocks + 1);
   voxels_.reserve(capacity);
+  clear();
 }
 
 void VoxelMap::clear() noexcept {
-  std::fill(slots_.begin(), slots_.end(), kNone);
   voxels_.clear();
+  lay_out_anew();
 }
 
-std::size_t VoxelMap::home_of(VoxelKey key) const noexcept {
-  constexpr VoxelKey kGolden = 0x9E3779B97F4A7C15U;  // Fibonacci hashing (Knuth, vol. 3, 6.4)
-  return static_cast<std::size_t>((key * kGolden) >> 32U) & (slots_.size() - 1);
+void VoxelMap::lay_out_anew() noexcept {
+  std::fill(slots_.begin(), slots_.end(), Slot{});
+  places_.assign(kBlock, kNone);
+  block_voxels_.assign(1, 0);
+  empty_blocks_ = 0;
+  for (std::size_t v = 0; v < voxels_.size(); ++v) put(v, find_or_add_block(voxels_[v].key));
 }
 
-std::int32_t VoxelMap::find(VoxelKey key) const noexcept {
-  for (std::size_t i = home_of(key);; i = (i + 1) & (slots_.size() - 1)) {
-    const std::int32_t index = slots_[i];
-    if (index == kNone || voxels_[static_cast<std::size_t>(index)].key == key) return index;
+// The place where it begins; 0 when there is no room for it.
+std::size_t VoxelMap::find_or_add_block(VoxelKey key) noexcept {
+  const VoxelKey block = block_of(key);
+  std::size_t i = home_of(block);
+  for (; slots_[i].block != kFree; i = (i + 1) & (slots_.size() - 1)) {
+    if (slots_[i].block == block) return slots_[i].first_place;
   }
+  if (places_.size() == places_.capacity()) return 0;
+  slots_[i] = {block, static_cast<std::uint32_t>(places_.size())};
+  places_.resize(places_.size() + kBlock, kNone);
+  block_voxels_.push_back(0);
+  ++empty_blocks_;
+  return slots_[i].first_place;
+}
+
+void VoxelMap::put(std::size_t voxel, std::size_t block_begin) noexcept {
+  const std::size_t place = block_begin + place_in_block(voxels_[voxel].key);
+  places_[place] = static_cast<std::int32_t>(voxel);
+  voxels_[voxel].place = static_cast<std::uint32_t>(place);
+  if (block_voxels_[place / kBlock]++ == 0) --empty_blocks_;
 }
 
 std::int32_t VoxelMap::find_or_add(VoxelKey key) noexcept {
-  std::size_t i = home_of(key);
-  for (; slots_[i] != kNone; i = (i + 1) & (slots_.size() - 1)) {
-    if (voxels_[static_cast<std::size_t>(slots_[i])].key == key) return slots_[i];
-  }
-  if (voxels_.size() == voxels_.capacity()) return kNone;
-  slots_[i] = static_cast<std::int32_t>(voxels_.size());
+  const std::int32_t known = find(key);
+  if (known != kNone || voxels_.size() == voxels_.capacity()) return known;
+  const std::size_t block_begin = find_or_add_block(key);
+  if (block_begin == 0) return kNone;
   voxels_.emplace_back().key = key;
-  return slots_[i];
+  put(voxels_.size() - 1, block_begin);
+  return static_cast<std::int32_t>(voxels_.size() - 1);
 }
 
 void VoxelMap::remove_empty() noexcept {
   std::size_t kept = 0;
   for (const Voxel& voxel : voxels_) {
-    if (voxel.moments.count > 0) voxels_[kept++] = voxel;
+    if (voxel.moments.count > 0) {
+      places_[voxel.place] = static_cast<std::int32_t>(kept);
+      voxels_[kept++] = voxel;
+    } else {
+      places_[voxel.place] = kNone;
+      if (--block_voxels_[voxel.place / kBlock] == 0) ++empty_blocks_;
+    }
   }
-  if (kept == voxels_.size()) return;
   voxels_.resize(kept);
-  std::fill(slots_.begin(), slots_.end(), kNone);
-  for (std::size_t v = 0; v < kept; ++v) {
-    std::size_t i = home_of(voxels_[v].key);
-    while (slots_[i] != kNone) i = (i + 1) & (slots_.size() - 1);
-    slots_[i] = static_cast<std::int32_t>(v);
-  }
+  // Blocks stay where they are, and what moved on leaves empty ones behind.
+  if (2 * empty_blocks_ > block_voxels_.size()) lay_out_anew();
 }
 
 }  // namespace convexcut::robust
