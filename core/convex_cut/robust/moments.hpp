@@ -4,9 +4,7 @@
 // from the voxel's centre), so that what was added can be taken away again without a trace.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include <Eigen/Eigenvalues>
@@ -17,16 +15,17 @@ namespace convexcut::robust {
 
 using Mat3f = Eigen::Matrix3f;
 
+// A coordinate of kilometres is rounded by more than a voxel: its offset is cut off at this.
+inline constexpr float kMostOffsetM = 0.2F;
+
 struct Moments {
   std::int32_t count = 0;
   std::array<std::int32_t, 3> sum_mm{};
   std::array<std::int32_t, 6> products_mm2{};  // xx xy xz yy yz zz
 
-  // |offset| at most 0.2 m: 50,000 points of a voxel do not overflow.
-  void add(const Vec3f& offset_m) noexcept {
-    const std::int32_t x = millimetres(offset_m.x());
-    const std::int32_t y = millimetres(offset_m.y());
-    const std::int32_t z = millimetres(offset_m.z());
+  // One point, by its offset from the centre: at most 0.2 m an axis, so that 50,000 points of a
+  // voxel do not overflow.
+  void add_mm(std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
     ++count;
     sum_mm[0] += x;
     sum_mm[1] += y;
@@ -44,12 +43,6 @@ struct Moments {
     return Vec3f(static_cast<float>(sum_mm[0]), static_cast<float>(sum_mm[1]),
                  static_cast<float>(sum_mm[2])) *
            (1e-3F / static_cast<float>(count));
-  }
-
- private:
-  [[nodiscard]] static std::int32_t millimetres(float metres) noexcept {
-    // A coordinate of kilometres is rounded by more than a voxel: the sums still must not overflow.
-    return static_cast<std::int32_t>(std::lrint(std::clamp(metres, -0.2F, 0.2F) * 1e3F));
   }
 };
 

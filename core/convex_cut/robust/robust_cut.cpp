@@ -8,6 +8,7 @@
 
 #include "core/convex_cut/cloud_check.hpp"
 #include "core/convex_cut/robust/backs.hpp"
+#include "core/convex_cut/robust/point_kernels.hpp"
 #include "core/convex_cut/robust/shape.hpp"
 
 namespace convexcut {
@@ -195,14 +196,18 @@ void RobustCut::place(const CloudView& cloud, const std::optional<Vec3>& positio
 void RobustCut::fill_voxels(const CloudView& cloud) noexcept {
   points_ = cloud.size();
   revolution_.clear();
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const float share = static_cast<float>(i) / static_cast<float>(cloud.size());
-    const Vec3f p = pose_.apply(robust::point_of(cloud, i), share);
-    const robust::Lattice place = robust::place_of(p);
-    const std::int32_t voxel = revolution_.find_or_add(robust::key_of(place));
-    voxel_of_point_[i] = voxel;
-    if (voxel == VoxelMap::kNone) continue;
-    revolution_.voxels()[static_cast<std::size_t>(voxel)].moments.add(p - robust::centre_of(place));
+  robust::PlacedPoints placed;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += robust::kPointsAtOnce) {
+    robust::place_points(cloud, begin, pose_, placed);
+    const std::size_t count = std::min(robust::kPointsAtOnce, cloud.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int32_t voxel =
+          revolution_.find_or_add(robust::key_of({placed.x[i], placed.y[i], placed.z[i]}));
+      voxel_of_point_[begin + i] = voxel;
+      if (voxel == VoxelMap::kNone) continue;
+      revolution_.voxels()[static_cast<std::size_t>(voxel)].moments.add_mm(
+          placed.x_mm[i], placed.y_mm[i], placed.z_mm[i]);
+    }
   }
 }
 

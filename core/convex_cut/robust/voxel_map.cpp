@@ -8,28 +8,21 @@
 namespace convexcut::robust {
 namespace {
 
-constexpr std::int32_t kBias = 1 << 20;
-constexpr unsigned kBits = 21;
-constexpr VoxelKey kMask = (VoxelKey{1} << kBits) - 1;
 constexpr std::size_t kLeastBlocks = 1'024;
 
 }  // namespace
 
-VoxelKey key_of(const Lattice& place) noexcept {
-  const auto part = [](std::int32_t c) { return static_cast<VoxelKey>(c + kBias) & kMask; };
-  return (part(place[0]) << (2 * kBits)) | (part(place[1]) << kBits) | part(place[2]);
-}
-
 Lattice place_of(VoxelKey key) noexcept {
-  const auto part = [](VoxelKey bits) { return static_cast<std::int32_t>(bits & kMask) - kBias; };
-  return {part(key >> (2 * kBits)), part(key >> kBits), part(key)};
+  const auto part = [](VoxelKey bits) {
+    return static_cast<std::int32_t>(bits & 0x1F'FFFF) - kLatticeBias;
+  };
+  return {part(key >> 42U), part(key >> 21U), part(key)};
 }
 
 Lattice place_of(const Vec3f& point) noexcept {
-  // Far outside of the lattice all is one border: such points have no neighbours to agree with.
   const auto step = [](float c) {
-    constexpr auto kLimit = static_cast<float>(kBias - 2);
-    return static_cast<std::int32_t>(std::clamp(std::floor(c / kVoxelM), -kLimit, kLimit));
+    return static_cast<std::int32_t>(
+        std::clamp(std::floor(c / kVoxelM), -kLatticeLimit, kLatticeLimit));
   };
   return {step(point.x()), step(point.y()), step(point.z())};
 }

@@ -19,8 +19,16 @@ inline constexpr float kVoxelM = 0.2F;
 // A voxel's place on the lattice, 21 bits an axis: ±200 km.
 using VoxelKey = std::uint64_t;
 using Lattice = std::array<std::int32_t, 3>;
+// Far outside of the lattice all is one border: such points have no neighbours to agree with.
+inline constexpr std::int32_t kLatticeBias = 1 << 20;
+inline constexpr auto kLatticeLimit = static_cast<float>(kLatticeBias - 2);
 
-[[nodiscard]] VoxelKey key_of(const Lattice& place) noexcept;
+[[nodiscard]] constexpr VoxelKey key_of(const Lattice& place) noexcept {
+  const auto part = [](std::int32_t c) {
+    return static_cast<VoxelKey>(c + kLatticeBias) & 0x1F'FFFF;
+  };
+  return (part(place[0]) << 42U) | (part(place[1]) << 21U) | part(place[2]);
+}
 [[nodiscard]] Lattice place_of(VoxelKey key) noexcept;
 [[nodiscard]] Lattice place_of(const Vec3f& point) noexcept;
 [[nodiscard]] Vec3f centre_of(const Lattice& place) noexcept;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/point_kernels.hpp"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+// Highway includes this file again for each instruction set.
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
+#define HWY_TARGET_INCLUDE "core/convex_cut/robust/point_kernels.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// Behind foreach_target.h.
+#include "core/simd/kernel_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace convexcut::robust::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::ScalableTag<float>;
+using Ints = hn::ScalableTag<std::int32_t>;
+using Float = hn::Vec<Floats>;
+using Int = hn::Vec<Ints>;
+
+// One axis of RigPose::apply. Eigen adds three products as a + (b + c).
+struct Axis {
+  Float x, y, z, position, step;
+
+  HWY_INLINE Axis(const RigPose& pose, Eigen::Index axis) noexcept
+      : x(hn::Set(Floats(), pose.r_window_from_level(axis, 0))),
+        y(hn::Set(Floats(), pose.r_window_from_level(axis, 1))),
+        z(hn::Set(Floats(), pose.r_window_from_level(axis, 2))),
+        position(hn::Set(Floats(), pose.position[axis])),
+        step(hn::Set(Floats(), pose.step[axis])) {}
+
+  HWY_INLINE Float of(Float px, Float py, Float pz, Float from_middle) const noexcept {
+    const Float turned = hn::Add(hn::Mul(x, px), hn::Add(hn::Mul(y, py), hn::Mul(z, pz)));
+    return hn::Add(hn::Add(turned, position), hn::Mul(from_middle, step));
+  }
+};
+
+// place_of(), centre_of() and Moments' millimetres.
+HWY_INLINE void place(Float p, std::int32_t* lattice, std::int32_t* millimetres) noexcept {
+  const Floats df;
+  const Ints di;
+  const Float voxel = hn::Set(df, kVoxelM);
+  const Float limit = hn::Set(df, kLatticeLimit);
+  const Float step = hn::Min(hn::Max(hn::Floor(hn::Div(p, voxel)), hn::Neg(limit)), limit);
+  const Float centre = hn::Mul(hn::Add(step, hn::Set(df, 0.5F)), voxel);
+  const Float most = hn::Set(df, kMostOffsetM);
+  const Float off = hn::Min(hn::Max(hn::Sub(p, centre), hn::Neg(most)), most);
+  hn::Store(hn::ConvertTo(di, step), di, lattice);
+  hn::Store(hn::NearestInt(hn::Mul(off, hn::Set(df, 1e3F))), di, millimetres);
+}
+
+void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
+                  PlacedPoints& placed) {
+  const Floats df;
+  const Ints di;
+  const std::size_t lanes = hn::Lanes(df);
+  const Axis to_x(pose, 0);
+  const Axis to_y(pose, 1);
+  const Axis to_z(pose, 2);
+  const Float points = hn::Set(df, static_cast<float>(cloud.size()));
+  const auto place_at = [&](std::size_t i, const float* x, const float* y,
+                            const float* z) HWY_ATTR {
+    const Float number = hn::ConvertTo(df, hn::Iota(di, static_cast<std::int32_t>(begin + i)));
+    const Float from_middle = hn::Sub(hn::Div(number, points), hn::Set(df, 0.5F));
+    const Float px = hn::LoadU(df, x);
+    const Float py = hn::LoadU(df, y);
+    const Float pz = hn::LoadU(df, z);
+    place(to_x.of(px, py, pz, from_middle), &placed.x[i], &placed.x_mm[i]);
+    place(to_y.of(px, py, pz, from_middle), &placed.y[i], &placed.y_mm[i]);
+    place(to_z.of(px, py, pz, from_middle), &placed.z[i], &placed.z_mm[i]);
+  };
+  const std::size_t count = std::min(kPointsAtOnce, cloud.size() - begin);
+  const float* x = cloud.x.data() + begin;
+  const float* y = cloud.y.data() + begin;
+  const float* z = cloud.z.data() + begin;
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) place_at(i, x + i, y + i, z + i);
+  if (i == count) return;
+  HWY_ALIGN float last[3][hn::MaxLanes(df)] = {};
+  std::copy(x + i, x + count, last[0]);
+  std::copy(y + i, y + count, last[1]);
+  std::copy(z + i, z + count, last[2]);
+  place_at(i, last[0], last[1], last[2]);
+}
+
+}  // namespace convexcut::robust::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace convexcut::robust {
+
+// Highway's table takes no noexcept functions; none of them throws.
+HWY_EXPORT(place_points);
+
+void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
+                  PlacedPoints& placed) noexcept {
+  HWY_DYNAMIC_DISPATCH(place_points)(cloud, begin, pose, placed);
+}
+
+}  // namespace convexcut::robust
+#endif
