@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace convexcut::robust {
 namespace {
 
+// A surfel agrees with a plane only when it is this near.
+constexpr float kPlaneGateM = 0.06F;
 constexpr int kTrials = 48;
 constexpr std::size_t kTested = 1'500;  // surfels a trial is tested on, about
 constexpr int kMostFailures = 3;
@@ -21,7 +25,7 @@ constexpr float kNearlyHorizontal = 0.993F;
 constexpr float kVertical = 0.35F;
 // A variance along the plane below this is one line of points, which has no normal.
 constexpr double kLine2 = 0.02;
-constexpr double kMostWeight = 20.0;
+constexpr float kMostWeight = 20.0F;
 constexpr float kRefineReachM = 0.3F;
 
 [[nodiscard]] std::optional<Plane> plane_through(const Surfel& surfel) noexcept {
@@ -41,32 +45,50 @@ constexpr float kRefineReachM = 0.3F;
   return plane;
 }
 
-[[nodiscard]] double weight_of(const Surfel& surfel) noexcept {
-  return std::min(static_cast<double>(surfel.points), kMostWeight);
+struct WeightedSums {
+  std::uint32_t count = 0;
+  double weight = 0.0;
+  Vec3 sum = Vec3::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+};
+
+// Of the surfels whose bit is set, in their order.
+[[nodiscard]] WeightedSums sums_of(const SurfelColumns& surfels,
+                                   std::span<const std::uint64_t> bits) noexcept {
+  constexpr std::size_t kBits = 64;
+  const float* x = surfels.column(SurfelColumns::kX);
+  const float* y = surfels.column(SurfelColumns::kY);
+  const float* z = surfels.column(SurfelColumns::kZ);
+  const float* weight = surfels.column(SurfelColumns::kWeight);
+  WeightedSums sums;
+  for (std::size_t word = 0; word * kBits < surfels.size; ++word) {
+    for (std::uint64_t left = bits[word]; left != 0; left &= left - 1) {
+      const std::size_t i = word * kBits + static_cast<std::size_t>(std::countr_zero(left));
+      const auto w = static_cast<double>(weight[i]);
+      const Vec3 p = Vec3f(x[i], y[i], z[i]).cast<double>();
+      sums.weight += w;
+      sums.sum += w * p;
+      sums.products += w * p * p.transpose();
+      ++sums.count;
+    }
+  }
+  return sums;
 }
 
 }  // namespace
 
-bool agrees(const Surfel& surfel, const Plane& plane, float gate_m) noexcept {
-  if (std::abs(plane.height_of(surfel.mean)) > gate_m) return false;
-  const float cosine = std::abs(plane.normal.dot(surfel.direction));
-  if (surfel.shape == Shape::plane) return cosine > kNormalAgrees;
-  return surfel.shape == Shape::line && cosine < kLineAgrees;
+PlaneSearch::PlaneSearch(std::size_t max_surfels)
+    : left_(max_surfels), near_(max_surfels), sampled_(2 * kTested) {
+  agree_.resize(max_surfels / 64 + 1);
+  taken_.resize(max_surfels + SurfelColumns::kPadding);
 }
 
 void PlaneSearch::run(Model& model, const Vec3f& origin) noexcept {
   model.planes.clear();
-  left_.clear();
   random_ = 1;
-  for (std::size_t i = 0; i < model.surfels.size(); ++i) {
-    Surfel& surfel = model.surfels[i];
-    surfel.plane = kNoPlane;
-    if (surfel.shape != Shape::other && surfel.is_evidence()) {
-      left_.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
+  take_left(model);
   int failures = 0;
-  while (left_.size() > kLeastSurfels && model.planes.size() < kMostPlanes &&
+  while (left_.size > kLeastSurfels && model.planes.size() < kMostPlanes &&
          failures < kMostFailures) {
     Plane plane = best_trial(model);
     if (plane.surfels < kLeastSurfels) {
@@ -74,9 +96,9 @@ void PlaneSearch::run(Model& model, const Vec3f& origin) noexcept {
       continue;
     }
     const Plane trial = plane;
-    if (refine(model, plane) < kLeastSurfels) {
+    if (refine(plane) < kLeastSurfels) {
       ++failures;
-      drop_near(model, trial);
+      take_agreeing(left_, trial, kPlaneGateM / 2, taken_.data());
       continue;
     }
     if (plane.height_of(origin) < 0.0F) {
@@ -88,52 +110,71 @@ void PlaneSearch::run(Model& model, const Vec3f& origin) noexcept {
   }
 }
 
+void PlaneSearch::take_left(Model& model) noexcept {
+  using C = SurfelColumns;
+  std::array<float*, C::kColumns> to{};
+  for (std::size_t c = 0; c < C::kColumns; ++c) to[c] = left_.column(c);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < model.surfels.size(); ++i) {
+    Surfel& surfel = model.surfels[i];
+    surfel.plane = kNoPlane;
+    if (surfel.shape == Shape::other || !surfel.is_evidence()) continue;
+    to[C::kX][count] = surfel.mean.x();
+    to[C::kY][count] = surfel.mean.y();
+    to[C::kZ][count] = surfel.mean.z();
+    to[C::kU][count] = surfel.direction.x();
+    to[C::kV][count] = surfel.direction.y();
+    to[C::kW][count] = surfel.direction.z();
+    to[C::kBar][count] = surfel.shape == Shape::plane ? kNormalAgrees : -kLineAgrees;
+    to[C::kWeight][count] = std::min(static_cast<float>(surfel.points), kMostWeight);
+    left_.index[count++] = static_cast<std::uint32_t>(i);
+  }
+  left_.size = count;
+}
+
 std::size_t PlaneSearch::random_left() noexcept {
   random_ = random_ * 6364136223846793005U + 1442695040888963407U;  // Knuth, MMIX
-  return static_cast<std::size_t>((random_ >> 33U) % left_.size());
+  return static_cast<std::size_t>((random_ >> 33U) % left_.size);
+}
+
+// Every so manyth surfel.
+const SurfelColumns& PlaneSearch::sample() noexcept {
+  const std::size_t stride = left_.size / kTested;
+  if (stride <= 1) return left_;
+  sampled_.size = (left_.size + stride - 1) / stride;
+  for (std::size_t c = 0; c <= SurfelColumns::kBar; ++c) {
+    const float* from = left_.column(c);
+    float* to = sampled_.column(c);
+    for (std::size_t i = 0; i < sampled_.size; ++i) to[i] = from[i * stride];
+  }
+  return sampled_;
 }
 
 Plane PlaneSearch::best_trial(const Model& model) noexcept {
-  const std::size_t stride = std::max<std::size_t>(1, left_.size() / kTested);
+  const std::size_t stride = std::max<std::size_t>(1, left_.size / kTested);
+  const SurfelColumns& tested = sample();
   Plane best;
   for (int trial = 0; trial < kTrials; ++trial) {
-    std::optional<Plane> plane = plane_through(model.surfels[left_[random_left()]]);
+    std::optional<Plane> plane = plane_through(model.surfels[left_.index[random_left()]]);
     if (!plane) continue;
-    std::size_t agreeing = 0;
-    for (std::size_t i = 0; i < left_.size(); i += stride) {
-      agreeing += agrees(model.surfels[left_[i]], *plane, kPlaneGateM) ? 1U : 0U;
-    }
-    plane->surfels = static_cast<std::uint32_t>(agreeing * stride);
+    plane->surfels =
+        static_cast<std::uint32_t>(count_agreeing(tested, *plane, kPlaneGateM) * stride);
     if (plane->surfels > best.surfels) best = *plane;
   }
   return best;
 }
 
-std::uint32_t PlaneSearch::refine(const Model& model, Plane& plane) noexcept {
-  near_.clear();
-  for (const std::uint32_t i : left_) {
-    if (std::abs(plane.height_of(model.surfels[i].mean)) < kRefineReachM) near_.push_back(i);
-  }
+std::uint32_t PlaneSearch::refine(Plane& plane) noexcept {
+  copy_near(left_, plane, kRefineReachM, near_);
   std::uint32_t count = 0;
   for (const float gate_m : {0.10F, 0.07F, 0.05F, 0.04F}) {
-    double weight = 0.0;
-    Vec3 sum = Vec3::Zero();
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    count = 0;
-    for (const std::uint32_t i : near_) {
-      const Surfel& surfel = model.surfels[i];
-      if (!agrees(surfel, plane, gate_m)) continue;
-      const double w = weight_of(surfel);
-      const Vec3 p = surfel.mean.cast<double>();
-      weight += w;
-      sum += w * p;
-      products += w * p * p.transpose();
-      ++count;
-    }
-    if (count < kLeastSurfels) return 0;
-    const Vec3 mean = sum / weight;
+    mark_agreeing(near_, plane, gate_m, agree_);
+    const WeightedSums sums = sums_of(near_, agree_);
+    if (sums.count < kLeastSurfels) return 0;
+    count = sums.count;
+    const Vec3 mean = sums.sum / sums.weight;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-    axes.computeDirect(products / weight - mean * mean.transpose());
+    axes.computeDirect(sums.products / sums.weight - mean * mean.transpose());
     if (axes.eigenvalues()[1] > kLine2) plane.normal = axes.eigenvectors().col(0).cast<float>();
     plane.offset = -plane.normal.dot(mean.cast<float>());
   }
@@ -141,24 +182,12 @@ std::uint32_t PlaneSearch::refine(const Model& model, Plane& plane) noexcept {
 }
 
 void PlaneSearch::claim(Model& model, const Plane& plane) noexcept {
-  Plane claimed = plane;
-  claimed.surfels = 0;
-  std::size_t kept = 0;
-  for (const std::uint32_t i : left_) {
-    if (agrees(model.surfels[i], plane, kPlaneGateM)) {
-      model.surfels[i].plane = static_cast<std::int32_t>(model.planes.size());
-      ++claimed.surfels;
-    } else {
-      left_[kept++] = i;
-    }
+  const std::size_t count = take_agreeing(left_, plane, kPlaneGateM, taken_.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    model.surfels[taken_[i]].plane = static_cast<std::int32_t>(model.planes.size());
   }
-  left_.resize(kept);
-  model.planes.push_back(claimed);
-}
-
-void PlaneSearch::drop_near(const Model& model, const Plane& plane) noexcept {
-  std::erase_if(left_,
-                [&](std::uint32_t i) { return agrees(model.surfels[i], plane, kPlaneGateM / 2); });
+  model.planes.push_back(plane);
+  model.planes.back().surfels = static_cast<std::uint32_t>(count);
 }
 
 }  // namespace convexcut::robust
