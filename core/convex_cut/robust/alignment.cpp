@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/convex_cut/robust/alignment.hpp"
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
-#include "core/convex_cut/robust/pose.hpp"
+#include "core/convex_cut/robust/point_kernels.hpp"
 
 namespace convexcut::robust {
 namespace {
@@ -11,51 +14,92 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr std::size_t kSamples = 6'000;
+constexpr std::size_t kSamples = 6'000;  // at least, where there are so many points
 constexpr std::array<float, 5> kGatesM{0.25F, 0.15F, 0.10F, 0.07F, 0.07F};
 constexpr double kNoiseM = 0.02;
 // Neighbouring points share what is wrong with their surface: their information adds up slowly.
 constexpr double kIndependent = 0.05;
 constexpr double kRotationSigma = 0.01;  // radians
 
-// The accepted plane that p lies on within the gate, or kNoPlane.
+// Of the planes that p is near, the nearest that has structure there, or kNoPlane.
 [[nodiscard]] std::int32_t plane_at(const Model& model, const PlaneGrids& grids, const Vec3f& p,
-                                    float gate_m) noexcept {
+                                    std::uint64_t near, float gate_m) noexcept {
   std::int32_t nearest = kNoPlane;
   float least = gate_m;
-  for (std::size_t k = 0; k < model.planes.size(); ++k) {
-    const Plane& plane = model.planes[k];
-    const float height = std::abs(plane.height_of(p));
-    if (!plane.accepted || height >= least || !grids.is_structure(k, p, 1)) continue;
+  for (; near != 0; near &= near - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(near));
+    const float height = std::abs(model.planes[k].height_of(p));
+    if (height >= least || !grids.is_beside_structure(k, p)) continue;
     least = height;
     nearest = static_cast<std::int32_t>(k);
   }
   return nearest;
 }
 
-struct Equations {
-  Mat6 information = Mat6::Zero();
+}  // namespace
+
+struct Alignment::Equations {
+  Mat6 information = Mat6::Zero();  // its lower triangle
   Vec6 gradient = Vec6::Zero();
   std::size_t points = 0;
 
-  void add(const Vec3f& from_rig, const Plane& plane, float height) noexcept {
+  void add(const Vec3f& from_rig, const Plane& plane, float height_m) noexcept {
     Vec6 j;
     j << from_rig.cross(plane.normal).cast<double>(), plane.normal.cast<double>();
-    const double relative = static_cast<double>(height) / kNoiseM;
+    const auto height = static_cast<double>(height_m);
+    const double relative = height / kNoiseM;
     const double weight = kIndependent / (kNoiseM * kNoiseM) / (1.0 + relative * relative / 4.0);
-    information += weight * j * j.transpose();
-    gradient += weight * static_cast<double>(height) * j;
+    for (Eigen::Index column = 0; column < 6; ++column) {
+      for (Eigen::Index row = column; row < 6; ++row) {
+        information(row, column) += weight * j[row] * j[column];
+      }
+    }
+    gradient += weight * height * j;
     ++points;
   }
 };
 
-}  // namespace
+Alignment::Alignment() {
+  for (Workspace<float>* column : {&x_, &y_, &z_, &from_middle_}) {
+    column->resize(2 * kSamples + kPointsAtOnce);
+  }
+}
 
-std::optional<RigPose> aligned(const CloudView& cloud, const Model& model, const PlaneGrids& grids,
-                               const RigPose& guess, float position_sigma_m,
-                               float least_share) noexcept {
+void Alignment::take_samples(const CloudView& cloud) noexcept {
   const std::size_t stride = std::max<std::size_t>(1, cloud.size() / kSamples);
-  const double position_sigma = position_sigma_m;
+  samples_ = 0;
+  for (std::size_t i = 0; i < cloud.size(); i += stride) {
+    x_[samples_] = cloud.x[i];
+    y_[samples_] = cloud.y[i];
+    z_[samples_] = cloud.z[i];
+    const float share = static_cast<float>(i) / static_cast<float>(cloud.size());
+    from_middle_[samples_++] = share - 0.5F;
+  }
+}
+
+Alignment::Equations Alignment::equations_at(const RigPose& pose, const Model& model,
+                                             const PlaneGrids& grids, float gate_m) const noexcept {
+  Equations equations;
+  PointsOnPlanes found;
+  for (std::size_t begin = 0; begin < samples_; begin += kPointsAtOnce) {
+    find_planes({x_.data(), y_.data(), z_.data(), from_middle_.data()}, begin, pose, model.planes,
+                gate_m, found);
+    for (std::size_t i = 0; i < std::min(kPointsAtOnce, samples_ - begin); ++i) {
+      const Vec3f p(found.x[i], found.y[i], found.z[i]);
+      const std::int32_t k = plane_at(model, grids, p, found.planes(i), gate_m);
+      if (k == kNoPlane) continue;
+      const Plane& plane = model.planes[static_cast<std::size_t>(k)];
+      equations.add(p - pose.position, plane, plane.height_of(p));
+    }
+  }
+  return equations;
+}
+
+std::optional<RigPose> Alignment::find(const CloudView& cloud, const Model& model,
+                                       const PlaneGrids& grids, const RigPose& guess,
+                                       float position_sigma_m, float least_share) noexcept {
+  take_samples(cloud);
+  const auto position_sigma = static_cast<double>(position_sigma_m);
   Vec6 prior;
   prior << Vec3::Constant(1.0 / (kRotationSigma * kRotationSigma)),
       Vec3::Constant(1.0 / (position_sigma * position_sigma));
@@ -63,17 +107,9 @@ std::optional<RigPose> aligned(const CloudView& cloud, const Model& model, const
   Vec6 moved = Vec6::Zero();
   std::size_t fitting = 0;
   for (const float gate_m : kGatesM) {
-    Equations equations;
-    for (std::size_t i = 0; i < cloud.size(); i += stride) {
-      const float share = static_cast<float>(i) / static_cast<float>(cloud.size());
-      const Vec3f p = pose.apply(point_of(cloud, i), share);
-      const std::int32_t k = plane_at(model, grids, p, gate_m);
-      if (k == kNoPlane) continue;
-      const Plane& plane = model.planes[static_cast<std::size_t>(k)];
-      equations.add(p - pose.position, plane, plane.height_of(p));
-    }
+    Equations equations = equations_at(pose, model, grids, gate_m);
     fitting = equations.points;
-    equations.information += Mat6(prior.asDiagonal());
+    equations.information.diagonal() += prior;
     equations.gradient += prior.cwiseProduct(moved);
     const Vec6 step = -equations.information.ldlt().solve(equations.gradient);
     moved += step;
@@ -83,8 +119,7 @@ std::optional<RigPose> aligned(const CloudView& cloud, const Model& model, const
         pose.r_window_from_level;
     pose.position += step.tail<3>().cast<float>();
   }
-  const std::size_t samples = (cloud.size() + stride - 1) / stride;
-  if (static_cast<float>(fitting) < least_share * static_cast<float>(samples)) return std::nullopt;
+  if (static_cast<float>(fitting) < least_share * static_cast<float>(samples_)) return std::nullopt;
   return pose;
 }
 

@@ -12,7 +12,11 @@ namespace {
 
 constexpr std::size_t kMostCells = 1U << 18U;
 constexpr std::size_t kMostExtents = 1U << 14U;
-constexpr std::int32_t kMargin = 2;     // cells around what was seen
+constexpr std::int32_t kMargin = 2;  // cells around what was seen
+// Flat planes reach as far beyond their rectangle, which has at least five rows, on both sides.
+constexpr std::size_t kBeyond = 2 * (kFlatReach - kMargin);
+constexpr std::size_t kMostReach = kMostCells + kBeyond * (kMostExtents + kMostCells / 5) +
+                                   kBeyond * kBeyond * PlaneSearch::kMostPlanes;
 constexpr std::int32_t kMarginUp = 12;  // of vertical planes: from floor to ceiling
 constexpr float kBehindM = 0.15F;       // a ray that ends so far behind a plane passed it
 constexpr float kEdgeM = 0.02F;
@@ -54,6 +58,9 @@ PlaneGrids::PlaneGrids() {
   grids_.reserve(PlaneSearch::kMostPlanes);
   cells_.reserve(kMostCells);
   extents_.reserve(kMostExtents);
+  reach_.reserve(kMostReach);
+  structure_.reserve(kMostReach);
+  widened_.reserve(kMostReach);
 }
 
 void PlaneGrids::build(Model& model) noexcept {
@@ -192,6 +199,62 @@ bool PlaneGrids::is_structure(std::size_t plane, const Vec3f& p,
     }
   }
   return false;
+}
+
+void PlaneGrids::mark_reach(const Model& model) noexcept {
+  reach_.clear();
+  for (std::size_t k = 0; k < grids_.size(); ++k) {
+    grids_[k].has_reach = model.planes[k].accepted && grids_[k].columns > 0;
+    if (grids_[k].has_reach) mark_reach(model.planes[k], grids_[k]);
+  }
+}
+
+void PlaneGrids::mark_reach(const Plane& plane, PlaneGrid& g) noexcept {
+  g.around = plane.vertical ? 0 : kFlatReach - kMargin;
+  g.first_reach = reach_.size();
+  const auto around = static_cast<std::size_t>(g.around);
+  const auto columns = static_cast<std::size_t>(g.columns);
+  const std::size_t width = columns + 2 * around;
+  const std::size_t size = width * (static_cast<std::size_t>(g.rows) + 2 * around);
+  structure_.assign(size, 0);
+  for (std::int32_t row = 0; row < g.rows; ++row) {
+    std::uint8_t* to = &structure_[(static_cast<std::size_t>(row) + around) * width + around];
+    const Cell* from = &cell(g, 0, row);
+    for (std::size_t c = 0; c < columns; ++c) to[c] = from[c].structure ? 1 : 0;
+  }
+  widen(width, 1);
+  reach_.resize(g.first_reach + size);
+  std::uint8_t* reach = &reach_[g.first_reach];
+  for (std::size_t i = 0; i < size; ++i) reach[i] = structure_[i] != 0 ? kBeside : 0;
+  if (!plane.vertical) {
+    widen(width, 2);
+    widen(width, 3);
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    reach[i] = static_cast<std::uint8_t>(reach[i] | (structure_[i] != 0 ? kWithinReach : 0));
+  }
+  for (std::int32_t row = 0; row < g.rows; ++row) {
+    std::uint8_t* to = &reach[(static_cast<std::size_t>(row) + around) * width + around];
+    const Cell* from = &cell(g, 0, row);
+    for (std::size_t c = 0; c < columns; ++c) to[c] = from[c].enclosed ? 0 : to[c];
+  }
+}
+
+// Structure that was widened by 1 is by 3 when it is widened by 2 more steps at once, and so on. It
+// is kMargin + around cells away from all borders: rows do not run into each other.
+void PlaneGrids::widen(std::size_t width, std::size_t by) noexcept {
+  const std::size_t size = structure_.size();
+  widened_.resize(size);
+  for (const std::size_t step : {by, by * width}) {
+    std::copy(structure_.begin(), structure_.end(), widened_.begin());
+    for (std::size_t i = step; i < size; ++i) {
+      widened_[i] = static_cast<std::uint8_t>(widened_[i] | structure_[i - step]);
+    }
+    for (std::size_t i = step; i < size; ++i) {
+      widened_[i - step] = static_cast<std::uint8_t>(widened_[i - step] | structure_[i]);
+    }
+    std::swap(structure_, widened_);
+  }
 }
 
 }  // namespace convexcut::robust

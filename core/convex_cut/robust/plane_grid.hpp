@@ -17,6 +17,11 @@ namespace convexcut::robust {
 
 inline constexpr float kCellM = 0.25F;
 
+// Cells around structure that belong to it: of flat surfaces, between two rings on a far floor; of
+// walls, the next.
+inline constexpr std::int32_t kFlatReach = 6;
+inline constexpr std::int32_t kWallReach = 1;
+
 struct Cell {
   std::uint16_t seen = 0;     // surfels of the plane
   std::uint16_t passed = 0;   // rays that end well behind the plane
@@ -39,6 +44,9 @@ struct PlaneGrid {
   std::int32_t columns = 0, rows = 0;
   std::size_t first_cell = 0;
   std::size_t first_extent = 0;
+  std::int32_t around = 0;      // cells on each side that structure reaches beyond the rectangle
+  std::size_t first_reach = 0;  // of the rectangle with those
+  bool has_reach = false;       // of an accepted plane
 
   [[nodiscard]] std::int32_t column_of(const Vec3f& p) const noexcept {
     return static_cast<std::int32_t>(std::floor(along.dot(p) / kCellM)) - first_along;
@@ -85,9 +93,20 @@ class PlaneGrids {
   [[nodiscard]] const Extent& extent(const PlaneGrid& grid, std::int32_t column) const noexcept {
     return extents_[grid.first_extent + static_cast<std::size_t>(column)];
   }
-  // Whether the cell at p, or one within `around` of it, is structure.
+  // Whether the cell at p, or one within `around` of it, is structure; not where it is enclosed.
   [[nodiscard]] bool is_structure(std::size_t plane, const Vec3f& p,
                                   std::int32_t around) const noexcept;
+
+  // The same at once, when all is decided: for the two below.
+  void mark_reach(const Model& model) noexcept;
+  // is_structure() within 1.
+  [[nodiscard]] bool is_beside_structure(std::size_t plane, const Vec3f& p) const noexcept {
+    return (reach_at(plane, p) & kBeside) != 0;
+  }
+  // is_structure() within kWallReach or kFlatReach.
+  [[nodiscard]] bool is_within_reach(std::size_t plane, const Vec3f& p) const noexcept {
+    return (reach_at(plane, p) & kWithinReach) != 0;
+  }
   // The layer of the cell at p, or the greatest of those beside it; 0: none.
   [[nodiscard]] float layer_near(std::size_t plane, const Vec3f& p) const noexcept;
 
@@ -104,7 +123,27 @@ class PlaneGrids {
   void mark_passed(const Model& model) noexcept;
   [[nodiscard]] bool passes(const PlaneGrid& grid, bool vertical, const Vec3f& p) const noexcept;
 
+  static constexpr std::uint8_t kBeside = 1;
+  static constexpr std::uint8_t kWithinReach = 2;
+  [[nodiscard]] std::uint8_t reach_at(std::size_t plane, const Vec3f& p) const noexcept {
+    const PlaneGrid& g = grids_[plane];
+    const std::int32_t column = g.column_of(p) + g.around;
+    const std::int32_t row = g.row_of(p) + g.around;
+    const std::int32_t columns = g.columns + 2 * g.around;
+    if (!g.has_reach || column < 0 || row < 0 || column >= columns ||
+        row >= g.rows + 2 * g.around) {
+      return 0;
+    }
+    return reach_[g.first_reach +
+                  static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                  static_cast<std::size_t>(column)];
+  }
+  void mark_reach(const Plane& plane, PlaneGrid& grid) noexcept;
+  void widen(std::size_t width, std::size_t by) noexcept;
+
   std::vector<PlaneGrid> grids_;
+  std::vector<std::uint8_t> reach_;                // kBeside, kWithinReach
+  std::vector<std::uint8_t> structure_, widened_;  // of a plane with reach
   std::vector<Cell> cells_;
   std::vector<Extent> extents_;
 };

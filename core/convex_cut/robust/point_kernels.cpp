@@ -19,6 +19,8 @@ using Floats = hn::ScalableTag<float>;
 using Ints = hn::ScalableTag<std::int32_t>;
 using Float = hn::Vec<Floats>;
 using Int = hn::Vec<Ints>;
+using Words = hn::ScalableTag<std::uint32_t>;
+using Word = hn::Vec<Words>;
 
 // One axis of RigPose::apply. Eigen adds three products as a + (b + c).
 struct Axis {
@@ -85,6 +87,49 @@ void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose
   place_at(i, last[0], last[1], last[2]);
 }
 
+// The planes from `first` on that are accepted and nearer than the gate, a bit each.
+HWY_INLINE Word near_planes(std::span<const Plane> planes, std::size_t first, Float x, Float y,
+                            Float z, Float gate) noexcept {
+  const Floats df;
+  const Words dw;
+  Word near = hn::Zero(dw);
+  for (std::size_t k = first; k < std::min(planes.size(), first + 32); ++k) {
+    const Plane& plane = planes[k];
+    if (!plane.accepted) continue;
+    const Float along = hn::Add(hn::Mul(hn::Set(df, plane.normal.x()), x),
+                                hn::Add(hn::Mul(hn::Set(df, plane.normal.y()), y),
+                                        hn::Mul(hn::Set(df, plane.normal.z()), z)));
+    const auto is_near = hn::Lt(hn::Abs(hn::Add(along, hn::Set(df, plane.offset))), gate);
+    near = hn::Or(near, hn::IfThenElseZero(hn::RebindMask(dw, is_near),
+                                           hn::Set(dw, std::uint32_t{1} << (k - first))));
+  }
+  return near;
+}
+
+void find_planes(const TimedPoints& points, std::size_t begin, const RigPose& pose,
+                 std::span<const Plane> planes, float gate_m, PointsOnPlanes& found) {
+  const Floats df;
+  const Words dw;
+  const Axis to_x(pose, 0);
+  const Axis to_y(pose, 1);
+  const Axis to_z(pose, 2);
+  const Float gate = hn::Set(df, gate_m);
+  for (std::size_t i = 0; i < kPointsAtOnce; i += hn::Lanes(df)) {
+    const Float px = hn::LoadU(df, points.x + begin + i);
+    const Float py = hn::LoadU(df, points.y + begin + i);
+    const Float pz = hn::LoadU(df, points.z + begin + i);
+    const Float from_middle = hn::LoadU(df, points.from_middle + begin + i);
+    const Float x = to_x.of(px, py, pz, from_middle);
+    const Float y = to_y.of(px, py, pz, from_middle);
+    const Float z = to_z.of(px, py, pz, from_middle);
+    hn::Store(x, df, &found.x[i]);
+    hn::Store(y, df, &found.y[i]);
+    hn::Store(z, df, &found.z[i]);
+    hn::Store(near_planes(planes, 0, x, y, z, gate), dw, &found.low[i]);
+    hn::Store(near_planes(planes, 32, x, y, z, gate), dw, &found.high[i]);
+  }
+}
+
 }  // namespace convexcut::robust::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -93,10 +138,16 @@ namespace convexcut::robust {
 
 // Highway's table takes no noexcept functions; none of them throws.
 HWY_EXPORT(place_points);
+HWY_EXPORT(find_planes);
 
 void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
                   PlacedPoints& placed) noexcept {
   HWY_DYNAMIC_DISPATCH(place_points)(cloud, begin, pose, placed);
+}
+
+void find_planes(const TimedPoints& points, std::size_t begin, const RigPose& pose,
+                 std::span<const Plane> planes, float gate_m, PointsOnPlanes& found) noexcept {
+  HWY_DYNAMIC_DISPATCH(find_planes)(points, begin, pose, planes, gate_m, found);
 }
 
 }  // namespace convexcut::robust

@@ -5,12 +5,8 @@
 // degrees for good; and a rig may move.
 #pragma once
 
-#include <optional>
-
 #include "core/cloud.hpp"
-#include "core/convex_cut/robust/model.hpp"
 #include "core/convex_cut/robust/moments.hpp"
-#include "core/convex_cut/robust/plane_grid.hpp"
 #include "core/convex_cut/robust/voxel_map.hpp"
 #include "core/geometry.hpp"
 
@@ -34,12 +30,5 @@ struct RigPose {
 // The rotation that makes floor and walls of a revolution level and upright: the direction to which
 // most surfaces are square or along, where it explains clearly more than z does. At most 12°.
 [[nodiscard]] Mat3f upright_correction(const VoxelMap& revolution) noexcept;
-
-// Moves a pose so that the cloud lies on the model's accepted planes, by least squares of the
-// points' distances; where the planes do not hold it, it stays. position_sigma_m: how far the guess
-// may be off. None: the cloud fits less than `least_share` of its points to the planes.
-[[nodiscard]] std::optional<RigPose> aligned(const CloudView& cloud, const Model& model,
-                                             const PlaneGrids& grids, const RigPose& guess,
-                                             float position_sigma_m, float least_share) noexcept;
 
 }  // namespace convexcut::robust

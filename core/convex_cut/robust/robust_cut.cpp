@@ -31,7 +31,6 @@ constexpr float kViewSr = 4.5F;         // steradians, of an HDL-32E
 constexpr float kStillM = 0.02F;        // a step below this is none
 constexpr float kLeastOfLastShare = 0.5F;
 constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
-constexpr std::int32_t kFlatReach = 6;     // cells: between two rings on a far floor
 constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
 
 [[nodiscard]] const RobustParameters& checked(const RobustParameters& parameters) {
@@ -175,7 +174,7 @@ void RobustCut::place(const CloudView& cloud, const std::optional<Vec3>& positio
   std::optional<robust::RigPose> found;
   if (window_.revolutions() > 0 && !parameters_.align) found = guess;
   if (window_.revolutions() > 0 && parameters_.align) {
-    found = robust::aligned(cloud, model_, grids_, guess, known ? kKnownMotionM : kUnknownMotionM,
+    found = alignment_.find(cloud, model_, grids_, guess, known ? kKnownMotionM : kUnknownMotionM,
                             kLeastOfLastShare * structure_share_);
     if (found && !known) found->step = found->position - pose_.position;
   }
@@ -219,6 +218,7 @@ void RobustCut::analyse() noexcept {
   if (parameters_.curved) {
     is_curved_ = curved_.find(model_, grids_, window_.map());
   }
+  grids_.mark_reach(model_);
 }
 
 void RobustCut::take_surfels() noexcept {
@@ -283,7 +283,7 @@ bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept 
   for (std::size_t i = 0; i < near.count; ++i) {
     const auto k = static_cast<std::size_t>(near.planes.at(i));
     if (std::abs(model_.planes[k].height_of(p)) <= parameters_.band_m &&
-        grids_.is_structure(k, p, model_.planes[k].vertical ? 1 : kFlatReach)) {
+        grids_.is_within_reach(k, p)) {
       return true;
     }
   }

@@ -15,6 +15,7 @@
 
 #include "core/cloud.hpp"
 #include "core/convex_cut/parameters.hpp"
+#include "core/convex_cut/robust/alignment.hpp"
 #include "core/convex_cut/robust/curved.hpp"
 #include "core/convex_cut/robust/fixtures.hpp"
 #include "core/convex_cut/robust/flat_surfaces.hpp"
@@ -83,6 +84,7 @@ class RobustCut {
   Workspace<std::int32_t> voxel_of_point_;
   robust::Window window_;
   robust::Model model_;
+  robust::Alignment alignment_;
   robust::PlaneSearch plane_search_;
   robust::PlaneGrids grids_;
   robust::FlatSurfaces flat_surfaces_;
