@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/convex_cut/robust/plane_search.hpp"
+#include "core/convex_cut/robust/ray_kernels.hpp"
 
 namespace convexcut::robust {
 namespace {
@@ -20,6 +21,7 @@ constexpr std::size_t kMostReach = kMostCells + kBeyond * (kMostExtents + kMostC
 constexpr std::int32_t kMarginUp = 12;  // of vertical planes: from floor to ceiling
 constexpr float kBehindM = 0.15F;       // a ray that ends so far behind a plane passed it
 constexpr float kEdgeM = 0.02F;
+constexpr float kAnywhereM = 1e9F;
 constexpr float kInFrontM = 0.05F;  // a ray that starts nearer to a plane says nothing of it
 
 struct Bounds {
@@ -54,14 +56,17 @@ bool passage(const Plane& plane, const Vec3f& origin, const Vec3f& end, float be
   return true;
 }
 
-PlaneGrids::PlaneGrids() {
+PlaneGrids::PlaneGrids(std::size_t max_surfels) : rays_(std::make_unique<Rays>(max_surfels)) {
   grids_.reserve(PlaneSearch::kMostPlanes);
   cells_.reserve(kMostCells);
   extents_.reserve(kMostExtents);
+  passable_.reserve(kMostExtents);
   reach_.reserve(kMostReach);
   structure_.reserve(kMostReach);
   widened_.reserve(kMostReach);
 }
+
+PlaneGrids::~PlaneGrids() = default;
 
 void PlaneGrids::build(Model& model) noexcept {
   grids_.clear();
@@ -140,32 +145,47 @@ void PlaneGrids::widen_extents() noexcept {
   }
 }
 
-bool PlaneGrids::passes(const PlaneGrid& g, bool vertical, const Vec3f& p) const noexcept {
-  if (!vertical) return true;
-  const Extent& e = extent(g, g.column_of(p));
-  if (e.empty()) return true;
-  // Beside what was seen in the column is not above it. Neighbours that touch leave no gap.
-  const float along = g.along.dot(p);
-  const float border = std::floor(along / kCellM) * kCellM;
-  const float low = e.low_m > border ? e.low_m + kEdgeM : border;
-  const float high = e.high_m < border + kCellM ? e.high_m - kEdgeM : border + kCellM;
-  return along >= low && along <= high;
+// Beside what was seen in the column is not above it. Neighbours that touch leave no gap.
+void PlaneGrids::take_passable(const PlaneGrid& g) noexcept {
+  for (std::int32_t column = 0; column < g.columns; ++column) {
+    const Extent& e = extent(g, column);
+    const float border = static_cast<float>(g.first_along + column) * kCellM;
+    Extent& passable = passable_[g.first_extent + static_cast<std::size_t>(column)];
+    passable.low_m = e.low_m > border ? e.low_m + kEdgeM : border;
+    passable.high_m = e.high_m < border + kCellM ? e.high_m - kEdgeM : border + kCellM;
+    if (e.empty()) passable = {-kAnywhereM, kAnywhereM};
+  }
 }
 
 void PlaneGrids::mark_passed(const Model& model) noexcept {
+  rays_->clear();
   for (const Surfel& surfel : model.surfels) {
-    if (!surfel.is_evidence()) continue;
+    if (surfel.is_evidence()) rays_->add(surfel.origin, surfel.mean);
+  }
+  passable_.resize(extents_.size());
+  for (std::size_t k = 0; k < grids_.size(); ++k) {
+    if (model.planes[k].vertical) take_passable(grids_[k]);
+  }
+  Passages passages;
+  for (std::size_t begin = 0; begin < rays_->size(); begin += kRaysAtOnce) {
     for (std::size_t k = 0; k < grids_.size(); ++k) {
-      const Plane& plane = model.planes[k];
-      const PlaneGrid& g = grids_[k];
-      Vec3f at;
-      if (!passage(plane, surfel.origin, surfel.mean, kBehindM, at)) continue;
-      const std::int32_t column = g.column_of(at);
-      const std::int32_t row = g.row_of(at);
-      if (!g.holds(column, row) || !passes(g, plane.vertical, at)) continue;
-      std::uint16_t& passed = cell(g, column, row).passed;
-      if (passed < std::numeric_limits<std::uint16_t>::max()) ++passed;
+      find_passages(*rays_, begin, model.planes[k], grids_[k], kBehindM, kInFrontM, passages);
+      count_passages(model, k, passages);
     }
+  }
+}
+
+void PlaneGrids::count_passages(const Model& model, std::size_t plane,
+                                const Passages& passages) noexcept {
+  const PlaneGrid& g = grids_[plane];
+  for (std::size_t i = 0; i < passages.count; ++i) {
+    if (model.planes[plane].vertical) {
+      const Extent& e = passable_[g.first_extent + static_cast<std::size_t>(passages.column[i])];
+      if (passages.along_m[i] < e.low_m || passages.along_m[i] > e.high_m) continue;
+    }
+    std::uint16_t& passed =
+        cells_[g.first_cell + static_cast<std::size_t>(passages.cell[i])].passed;
+    if (passed < std::numeric_limits<std::uint16_t>::max()) ++passed;
   }
 }
 

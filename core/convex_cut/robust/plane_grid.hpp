@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -75,9 +76,13 @@ struct Extent {
   [[nodiscard]] bool empty() const noexcept { return low_m > high_m; }
 };
 
+struct Passages;
+class Rays;
+
 class PlaneGrids {
  public:
-  PlaneGrids();
+  explicit PlaneGrids(std::size_t max_surfels);
+  ~PlaneGrids();
 
   // For the model's planes; a plane that no room is left for loses its surfels.
   void build(Model& model) noexcept;
@@ -120,8 +125,9 @@ class PlaneGrids {
   void lay_out(Model& model) noexcept;
   void mark_seen(const Model& model) noexcept;
   void widen_extents() noexcept;
+  void take_passable(const PlaneGrid& grid) noexcept;
   void mark_passed(const Model& model) noexcept;
-  [[nodiscard]] bool passes(const PlaneGrid& grid, bool vertical, const Vec3f& p) const noexcept;
+  void count_passages(const Model& model, std::size_t plane, const Passages& passages) noexcept;
 
   static constexpr std::uint8_t kBeside = 1;
   static constexpr std::uint8_t kWithinReach = 2;
@@ -146,6 +152,8 @@ class PlaneGrids {
   std::vector<std::uint8_t> structure_, widened_;  // of a plane with reach
   std::vector<Cell> cells_;
   std::vector<Extent> extents_;
+  std::vector<Extent> passable_;  // by column of a vertical plane: where a ray is above or below it
+  std::unique_ptr<Rays> rays_;
 };
 
 // Where the ray from `origin` to `end` meets the plane. False: it does not pass to at least

@@ -113,6 +113,7 @@ RobustCut::RobustCut(const RobustParameters& parameters, std::size_t max_points)
       revolution_(std::min(max_points, kMostVoxels)),
       window_(parameters.window, std::min(max_points, kMostVoxels), kMostWindowVoxels),
       plane_search_(kMostWindowVoxels),
+      grids_(kMostWindowVoxels),
       mirrors_(kMostWindowVoxels),
       curved_(kMostWindowVoxels) {
   voxel_of_point_.resize(max_points);
