@@ -52,31 +52,41 @@ class Spread {
   // shift_m: from the common centre to the moments' own.
   void add(const Moments& m, const Vec3f& shift_m) noexcept {
     const auto n = static_cast<float>(m.count);
-    const Vec3f s(static_cast<float>(m.sum_mm[0]), static_cast<float>(m.sum_mm[1]),
-                  static_cast<float>(m.sum_mm[2]));
-    const Vec3f sum = s * 1e-3F;
+    std::array<float, 3> sum{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum[i] = static_cast<float>(m.sum_mm[i]) * 1e-3F;
+      sum_[i] += sum[i] + n * shift_m[static_cast<Eigen::Index>(i)];
+    }
+    const std::array<float, 3> shift{shift_m.x(), shift_m.y(), shift_m.z()};
+    for (std::size_t i = 0; i < 6; ++i) {
+      const std::size_t row = kRow[i];
+      const std::size_t column = kColumn[i];
+      products_[i] += static_cast<float>(m.products_mm2[i]) * 1e-6F + shift[row] * sum[column] +
+                      sum[row] * shift[column] + n * shift[row] * shift[column];
+    }
     count_ += n;
-    sum_ += sum + n * shift_m;
-    const auto product = [&m](std::size_t i) {
-      return static_cast<float>(m.products_mm2[i]) * 1e-6F;
-    };
-    Mat3f p;
-    p << product(0), product(1), product(2), product(1), product(3), product(4), product(2),
-        product(4), product(5);
-    products_ += p + shift_m * sum.transpose() + sum * shift_m.transpose() +
-                 n * shift_m * shift_m.transpose();
   }
   [[nodiscard]] float count() const noexcept { return count_; }
   // m²; count() > 0.
   [[nodiscard]] Mat3f covariance() const noexcept {
-    const Vec3f mean = sum_ / count_;
-    return products_ / count_ - mean * mean.transpose();
+    Mat3f covariance;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto row = static_cast<Eigen::Index>(kRow[i]);
+      const auto column = static_cast<Eigen::Index>(kColumn[i]);
+      covariance(row, column) = covariance(column, row) =
+          products_[i] / count_ - sum_[kRow[i]] / count_ * (sum_[kColumn[i]] / count_);
+    }
+    return covariance;
   }
 
  private:
+  // Of products: xx xy xz yy yz zz, as the lower triangle of a matrix.
+  static constexpr std::array<std::size_t, 6> kRow{0, 1, 2, 1, 2, 2};
+  static constexpr std::array<std::size_t, 6> kColumn{0, 0, 0, 1, 1, 2};
+
   float count_ = 0.0F;
-  Vec3f sum_ = Vec3f::Zero();
-  Mat3f products_ = Mat3f::Zero();
+  std::array<float, 3> sum_{};
+  std::array<float, 6> products_{};
 };
 
 }  // namespace convexcut::robust
