@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/convex_cut/robust/ray_kernels.hpp"
+
 namespace convexcut::robust {
 namespace {
 
@@ -71,19 +73,17 @@ void Mirrors::collect_sights(const Model& model, const PlaneGrids& grids,
   const PlaneGrid& grid = grids.grid(plane);
   unsorted_.clear();
   starts_.assign(grid.cell_count() + 1, 0);
-  for (std::size_t i = 0; i < model.surfels.size(); ++i) {
-    const Surfel& surfel = model.surfels[i];
-    Vec3f at;
-    if (!surfel.is_evidence() ||
-        !passage(model.planes[plane], surfel.origin, surfel.mean, kBehindM, at)) {
-      continue;
+  const Rays& rays = grids.rays();
+  Passages passages;
+  for (std::size_t begin = 0; begin < rays.size(); begin += kRaysAtOnce) {
+    find_passages(rays, begin, model.planes[plane], grid, kBehindM, kInFrontM, passages);
+    for (std::size_t i = 0; i < passages.count; ++i) {
+      const std::uint32_t surfel = rays.surfel(passages.ray[i]);
+      if (model.surfels[surfel].mirrored) continue;
+      const auto cell = static_cast<std::uint32_t>(passages.cell[i]);
+      unsorted_.push_back({cell, surfel});
+      ++starts_[cell + 1];
     }
-    const std::int32_t column = grid.column_of(at);
-    const std::int32_t row = grid.row_of(at);
-    if (!grid.holds(column, row)) continue;
-    const auto cell = static_cast<std::uint32_t>(row * grid.columns + column);
-    unsorted_.push_back({cell, static_cast<std::uint32_t>(i)});
-    ++starts_[cell + 1];
   }
   for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
   // Each cell's start serves as its next free place, and is its end when all are placed.

@@ -22,7 +22,6 @@ constexpr std::int32_t kMarginUp = 12;  // of vertical planes: from floor to cei
 constexpr float kBehindM = 0.15F;       // a ray that ends so far behind a plane passed it
 constexpr float kEdgeM = 0.02F;
 constexpr float kAnywhereM = 1e9F;
-constexpr float kInFrontM = 0.05F;  // a ray that starts nearer to a plane says nothing of it
 
 struct Bounds {
   std::int32_t low_along = std::numeric_limits<std::int32_t>::max();
@@ -45,16 +44,6 @@ struct Bounds {
 }
 
 }  // namespace
-
-bool passage(const Plane& plane, const Vec3f& origin, const Vec3f& end, float behind_m,
-             Vec3f& at) noexcept {
-  const float height_of_end = plane.height_of(end);
-  if (height_of_end > -behind_m) return false;
-  const float height = plane.height_of(origin);
-  if (height < kInFrontM) return false;
-  at = origin + height / (height - height_of_end) * (end - origin);
-  return true;
-}
 
 PlaneGrids::PlaneGrids(std::size_t max_surfels) : rays_(std::make_unique<Rays>(max_surfels)) {
   grids_.reserve(PlaneSearch::kMostPlanes);
@@ -159,8 +148,9 @@ void PlaneGrids::take_passable(const PlaneGrid& g) noexcept {
 
 void PlaneGrids::mark_passed(const Model& model) noexcept {
   rays_->clear();
-  for (const Surfel& surfel : model.surfels) {
-    if (surfel.is_evidence()) rays_->add(surfel.origin, surfel.mean);
+  for (std::size_t i = 0; i < model.surfels.size(); ++i) {
+    const Surfel& surfel = model.surfels[i];
+    if (surfel.is_evidence()) rays_->add(i, surfel.origin, surfel.mean);
   }
   passable_.resize(extents_.size());
   for (std::size_t k = 0; k < grids_.size(); ++k) {

@@ -17,6 +17,7 @@
 namespace convexcut::robust {
 
 inline constexpr float kCellM = 0.25F;
+inline constexpr float kInFrontM = 0.05F;  // a ray that starts nearer to a plane says nothing of it
 
 // Cells around structure that belong to it: of flat surfaces, between two rings on a far floor; of
 // walls, the next.
@@ -98,6 +99,8 @@ class PlaneGrids {
   [[nodiscard]] const Extent& extent(const PlaneGrid& grid, std::int32_t column) const noexcept {
     return extents_[grid.first_extent + static_cast<std::size_t>(column)];
   }
+  // Of the surfels that are evidence when the grids are built, in their order.
+  [[nodiscard]] const Rays& rays() const noexcept { return *rays_; }
   // Whether the cell at p, or one within `around` of it, is structure; not where it is enclosed.
   [[nodiscard]] bool is_structure(std::size_t plane, const Vec3f& p,
                                   std::int32_t around) const noexcept;
@@ -155,10 +158,5 @@ class PlaneGrids {
   std::vector<Extent> passable_;  // by column of a vertical plane: where a ray is above or below it
   std::unique_ptr<Rays> rays_;
 };
-
-// Where the ray from `origin` to `end` meets the plane. False: it does not pass to at least
-// `behind_m` behind it.
-[[nodiscard]] bool passage(const Plane& plane, const Vec3f& origin, const Vec3f& end,
-                           float behind_m, Vec3f& at) noexcept;
 
 }  // namespace convexcut::robust

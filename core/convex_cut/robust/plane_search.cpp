@@ -49,7 +49,7 @@ struct WeightedSums {
   std::uint32_t count = 0;
   double weight = 0.0;
   Vec3 sum = Vec3::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // its lower triangle
 };
 
 // Of the surfels whose bit is set, in their order.
@@ -67,8 +67,13 @@ struct WeightedSums {
       const auto w = static_cast<double>(weight[i]);
       const Vec3 p = Vec3f(x[i], y[i], z[i]).cast<double>();
       sums.weight += w;
-      sums.sum += w * p;
-      sums.products += w * p * p.transpose();
+      const Vec3 weighted = w * p;
+      sums.sum += weighted;
+      for (Eigen::Index column = 0; column < 3; ++column) {
+        for (Eigen::Index row = column; row < 3; ++row) {
+          sums.products(row, column) += weighted[row] * p[column];
+        }
+      }
       ++sums.count;
     }
   }

@@ -87,6 +87,7 @@ void find_passages(const Rays& rays, std::size_t begin, const Plane& plane, cons
                                                                  is_within(row, grid.rows))));
     const Int cell = hn::Add(hn::Mul(row, hn::Set(di, grid.columns)), column);
     const lanes_of::Compressor compress(held);
+    hn::StoreU(compress(hn::Iota(dw, static_cast<std::uint32_t>(i))), dw, &passages.ray[count]);
     hn::StoreU(hn::BitCast(di, compress(hn::BitCast(dw, column))), di, &passages.column[count]);
     hn::StoreU(hn::BitCast(di, compress(hn::BitCast(dw, cell))), di, &passages.cell[count]);
     hn::StoreU(compress(along_m), df, &passages.along_m[count]);
@@ -101,9 +102,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace convexcut::robust {
 
-Rays::Rays(std::size_t capacity) : stride_(capacity + kRaysAtOnce) { values_.resize(6 * stride_); }
+Rays::Rays(std::size_t capacity) : stride_(capacity + kRaysAtOnce) {
+  values_.resize(6 * stride_);
+  surfels_.resize(capacity);
+}
 
-void Rays::add(const Vec3f& origin, const Vec3f& end) noexcept {
+void Rays::add(std::size_t surfel, const Vec3f& origin, const Vec3f& end) noexcept {
+  surfels_[size_] = static_cast<std::uint32_t>(surfel);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     values_[axis * stride_ + size_] = origin[static_cast<Eigen::Index>(axis)];
     values_[(axis + 3) * stride_ + size_] = end[static_cast<Eigen::Index>(axis)];

@@ -23,8 +23,10 @@ class Rays {
   explicit Rays(std::size_t capacity);
 
   void clear() noexcept { size_ = 0; }
-  void add(const Vec3f& origin, const Vec3f& end) noexcept;
+  // Of a surfel, by its index in the model.
+  void add(std::size_t surfel, const Vec3f& origin, const Vec3f& end) noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] std::uint32_t surfel(std::size_t ray) const noexcept { return surfels_[ray]; }
   // 0 … 2: the origins' coordinates, 3 … 5: the ends'.
   [[nodiscard]] const float* column(std::size_t i) const noexcept {
     return values_.data() + i * stride_;
@@ -34,12 +36,14 @@ class Rays {
   std::size_t stride_;
   std::size_t size_ = 0;
   Workspace<float> values_;
+  Workspace<std::uint32_t> surfels_;
 };
 
 // Rays that end at least behind_m behind a plane and begin at least in_front_m before it.
 struct Passages {
   std::size_t count = 0;
-  // Where they pass it: the cell of its grid, and along it.
+  // Which they are, and where they pass it: the cell of its grid, and along it.
+  std::array<std::uint32_t, kRaysAtOnce + 64> ray;
   std::array<std::int32_t, kRaysAtOnce + 64> column, cell;
   std::array<float, kRaysAtOnce + 64> along_m;
 };
