@@ -35,6 +35,23 @@ void for_each_around(const PlaneGrid& grid, std::uint32_t cell, std::int32_t rea
   }
 }
 
+// Whether the surfel, reflected at the plane, lies on what is seen.
+[[nodiscard]] bool has_counterpart(const Model& model, const VoxelMap& map, const Plane& plane,
+                                   const Surfel& surfel) noexcept {
+  const Vec3f image = surfel.mean - 2.0F * plane.height_of(surfel.mean) * plane.normal;
+  const Vec3f direction =
+      surfel.direction - 2.0F * plane.normal.dot(surfel.direction) * plane.normal;
+  bool found = false;
+  for_each_neighbour(map, key_of(place_of(image)), [&](std::size_t k, const Lattice&) {
+    const Surfel& other = model.surfels[k];
+    found =
+        found ||
+        (other.supported && (other.mean - image).norm() < kSameM &&
+         (other.shape != Shape::plane || std::abs(other.direction.dot(direction)) > kSameNormal));
+  });
+  return found;
+}
+
 }  // namespace
 
 Mirrors::Mirrors(std::size_t max_surfels) {
@@ -42,6 +59,7 @@ Mirrors::Mirrors(std::size_t max_surfels) {
   unsorted_.reserve(max_surfels);
   starts_.reserve(kMostCells + 1);
   hole_.reserve(kMostCells);
+  informative_.reserve(max_surfels);
   visited_.reserve(kMostCells);
 }
 
@@ -126,32 +144,27 @@ bool Mirrors::is_framed(const PlaneGrids& grids, const PlaneGrid& grid) noexcept
   return static_cast<float>(wall) > kLeastFrame * static_cast<float>(frame);
 }
 
-bool Mirrors::is_image(const Model& model, const VoxelMap& map, const Plane& plane) const noexcept {
-  std::uint32_t informative = 0;
-  std::uint32_t matching = 0;
+bool Mirrors::is_image(const Model& model, const VoxelMap& map, const Plane& plane) noexcept {
+  informative_.clear();
   for (const std::uint32_t cell : hole_) {
     for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
       const Surfel& surfel = model.surfels[sights_[i].surfel];
-      const float height = plane.height_of(surfel.mean);
-      const float along = plane.normal.dot(surfel.direction);
-      if (surfel.shape != Shape::plane || std::abs(along) < kAlong || height > -kFarBehindM) {
-        continue;
+      if (surfel.shape == Shape::plane && plane.height_of(surfel.mean) <= -kFarBehindM &&
+          std::abs(plane.normal.dot(surfel.direction)) >= kAlong) {
+        informative_.push_back(sights_[i].surfel);
       }
-      ++informative;
-      const Vec3f image = surfel.mean - 2.0F * height * plane.normal;
-      const Vec3f direction = surfel.direction - 2.0F * along * plane.normal;
-      bool found = false;
-      for_each_neighbour(map, key_of(place_of(image)), [&](std::size_t k, const Lattice&) {
-        const Surfel& other = model.surfels[k];
-        found = found || (other.supported && (other.mean - image).norm() < kSameM &&
-                          (other.shape != Shape::plane ||
-                           std::abs(other.direction.dot(direction)) > kSameNormal));
-      });
-      matching += found ? 1U : 0U;
     }
   }
-  return informative >= kLeastInformative &&
-         static_cast<float>(matching) > kLeastMatching * static_cast<float>(informative);
+  if (informative_.size() < kLeastInformative) return false;
+  const float least = kLeastMatching * static_cast<float>(informative_.size());
+  std::size_t matching = 0;
+  for (std::size_t i = 0; i < informative_.size(); ++i) {
+    const std::size_t most = matching + informative_.size() - i;
+    if (static_cast<float>(most) <= least) return false;
+    matching += has_counterpart(model, map, plane, model.surfels[informative_[i]]) ? 1U : 0U;
+    if (static_cast<float>(matching) > least) return true;
+  }
+  return false;
 }
 
 }  // namespace convexcut::robust

@@ -29,14 +29,14 @@ class Mirrors {
   void collect_sights(const Model& model, const PlaneGrids& grids, std::size_t plane) noexcept;
   void collect_hole(const PlaneGrid& grid, std::uint32_t seed) noexcept;
   [[nodiscard]] bool is_framed(const PlaneGrids& grids, const PlaneGrid& grid) noexcept;
-  [[nodiscard]] bool is_image(const Model& model, const VoxelMap& map,
-                              const Plane& plane) const noexcept;
+  [[nodiscard]] bool is_image(const Model& model, const VoxelMap& map, const Plane& plane) noexcept;
 
   std::vector<Sight> sights_;  // by cell
   std::vector<Sight> unsorted_;
-  std::vector<std::uint32_t> starts_;  // of each cell in sights_, and the end
-  std::vector<std::uint32_t> hole_;    // cells; also the queue of the search for them
-  std::vector<std::uint8_t> visited_;  // by cell
+  std::vector<std::uint32_t> starts_;       // of each cell in sights_, and the end
+  std::vector<std::uint32_t> hole_;         // cells; also the queue of the search for them
+  std::vector<std::uint32_t> informative_;  // of a hole, the surfels that can tell an image
+  std::vector<std::uint8_t> visited_;       // by cell
 };
 
 }  // namespace convexcut::robust
