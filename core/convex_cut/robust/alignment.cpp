@@ -80,13 +80,14 @@ void Alignment::take_samples(const CloudView& cloud) noexcept {
 Alignment::Equations Alignment::equations_at(const RigPose& pose, const Model& model,
                                              const PlaneGrids& grids, float gate_m) const noexcept {
   Equations equations;
-  PointsOnPlanes found;
+  MovedPoints moved;
+  PlaneSets near;
   for (std::size_t begin = 0; begin < samples_; begin += kPointsAtOnce) {
-    find_planes({x_.data(), y_.data(), z_.data(), from_middle_.data()}, begin, pose, model.planes,
-                gate_m, found);
+    move_points({&x_[begin], &y_[begin], &z_[begin]}, &from_middle_[begin], pose, moved);
+    find_planes(moved.columns(), model.planes, gate_m, near);
     for (std::size_t i = 0; i < std::min(kPointsAtOnce, samples_ - begin); ++i) {
-      const Vec3f p(found.x[i], found.y[i], found.z[i]);
-      const std::int32_t k = plane_at(model, grids, p, found.planes(i), gate_m);
+      const Vec3f p(moved.x[i], moved.y[i], moved.z[i]);
+      const std::int32_t k = plane_at(model, grids, p, near[i], gate_m);
       if (k == kNoPlane) continue;
       const Plane& plane = model.planes[static_cast<std::size_t>(k)];
       equations.add(p - pose.position, plane, plane.height_of(p));

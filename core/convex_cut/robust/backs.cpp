@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/convex_cut/robust/backs.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "core/convex_cut/robust/point_kernels.hpp"
+#include "core/convex_cut/robust/ray_kernels.hpp"
 
 namespace convexcut::robust {
 namespace {
@@ -11,23 +16,25 @@ constexpr float kFarthestM = 0.40F;
 constexpr float kOnSurfaceM = 0.06F;
 constexpr std::int32_t kReach = 2;  // cells: the distance of shelves
 
-[[nodiscard]] bool is_on_structure(const Model& model, const PlaneGrids& grids,
-                                   const Vec3f& p) noexcept {
-  for (std::size_t k = 0; k < model.planes.size(); ++k) {
-    const Plane& plane = model.planes[k];
-    if (plane.accepted && std::abs(plane.height_of(p)) < kOnSurfaceM &&
-        grids.is_structure(k, p, 1)) {
+// near: the planes that p is near.
+[[nodiscard]] bool is_on_structure(const Model& model, const PlaneGrids& grids, const Vec3f& p,
+                                   std::uint64_t near) noexcept {
+  for (; near != 0; near &= near - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(near));
+    if (std::abs(model.planes[k].height_of(p)) < kOnSurfaceM && grids.is_structure(k, p, 1)) {
       return true;
     }
   }
   return false;
 }
 
-void mark_before(const Model& model, PlaneGrids& grids, const Vec3f& p) noexcept {
-  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+void mark_before(const Model& model, PlaneGrids& grids, const Vec3f& p,
+                 std::uint64_t near) noexcept {
+  for (; near != 0; near &= near - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(near));
     const Plane& plane = model.planes[k];
     const float height = plane.height_of(p);
-    if (!plane.accepted || !plane.vertical || height < kNearestM || height > kFarthestM) continue;
+    if (!plane.vertical || height < kNearestM || height > kFarthestM) continue;
     const PlaneGrid& grid = grids.grid(k);
     const std::int32_t column = grid.column_of(p);
     const std::int32_t row = grid.row_of(p);
@@ -46,9 +53,16 @@ void mark_before(const Model& model, PlaneGrids& grids, const Vec3f& p) noexcept
 }  // namespace
 
 void mark_backs(const Model& model, PlaneGrids& grids) noexcept {
-  for (const Surfel& surfel : model.surfels) {
-    if (surfel.is_evidence() && !is_on_structure(model, grids, surfel.mean)) {
-      mark_before(model, grids, surfel.mean);
+  const Rays& rays = grids.rays();
+  PlaneSets near;
+  for (std::size_t begin = 0; begin < rays.size(); begin += kPointsAtOnce) {
+    find_planes({rays.column(3) + begin, rays.column(4) + begin, rays.column(5) + begin},
+                model.planes, kFarthestM, near);
+    for (std::size_t i = 0; i < std::min(kPointsAtOnce, rays.size() - begin); ++i) {
+      const Vec3f& p = model.surfels[rays.surfel(begin + i)].mean;
+      if (near[i] != 0 && !is_on_structure(model, grids, p, near[i])) {
+        mark_before(model, grids, p, near[i]);
+      }
     }
   }
   for (std::size_t k = 0; k < model.planes.size(); ++k) {

@@ -87,7 +87,7 @@ void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose
   place_at(i, last[0], last[1], last[2]);
 }
 
-// The planes from `first` on that are accepted and nearer than the gate, a bit each.
+// The planes from `first` on that are accepted and within the gate, a bit each.
 HWY_INLINE Word near_planes(std::span<const Plane> planes, std::size_t first, Float x, Float y,
                             Float z, Float gate) noexcept {
   const Floats df;
@@ -99,32 +99,39 @@ HWY_INLINE Word near_planes(std::span<const Plane> planes, std::size_t first, Fl
     const Float along = hn::Add(hn::Mul(hn::Set(df, plane.normal.x()), x),
                                 hn::Add(hn::Mul(hn::Set(df, plane.normal.y()), y),
                                         hn::Mul(hn::Set(df, plane.normal.z()), z)));
-    const auto is_near = hn::Lt(hn::Abs(hn::Add(along, hn::Set(df, plane.offset))), gate);
+    const auto is_near = hn::Le(hn::Abs(hn::Add(along, hn::Set(df, plane.offset))), gate);
     near = hn::Or(near, hn::IfThenElseZero(hn::RebindMask(dw, is_near),
                                            hn::Set(dw, std::uint32_t{1} << (k - first))));
   }
   return near;
 }
 
-void find_planes(const TimedPoints& points, std::size_t begin, const RigPose& pose,
-                 std::span<const Plane> planes, float gate_m, PointsOnPlanes& found) {
+void move_points(const PointColumns points, const float* from_middle, const RigPose& pose,
+                 MovedPoints& moved) {
   const Floats df;
-  const Words dw;
   const Axis to_x(pose, 0);
   const Axis to_y(pose, 1);
   const Axis to_z(pose, 2);
+  for (std::size_t i = 0; i < kPointsAtOnce; i += hn::Lanes(df)) {
+    const Float x = hn::LoadU(df, points.x + i);
+    const Float y = hn::LoadU(df, points.y + i);
+    const Float z = hn::LoadU(df, points.z + i);
+    const Float middle = hn::LoadU(df, from_middle + i);
+    hn::Store(to_x.of(x, y, z, middle), df, &moved.x[i]);
+    hn::Store(to_y.of(x, y, z, middle), df, &moved.y[i]);
+    hn::Store(to_z.of(x, y, z, middle), df, &moved.z[i]);
+  }
+}
+
+void find_planes(const PointColumns points, std::span<const Plane> planes, float gate_m,
+                 PlaneSets& found) {
+  const Floats df;
+  const Words dw;
   const Float gate = hn::Set(df, gate_m);
   for (std::size_t i = 0; i < kPointsAtOnce; i += hn::Lanes(df)) {
-    const Float px = hn::LoadU(df, points.x + begin + i);
-    const Float py = hn::LoadU(df, points.y + begin + i);
-    const Float pz = hn::LoadU(df, points.z + begin + i);
-    const Float from_middle = hn::LoadU(df, points.from_middle + begin + i);
-    const Float x = to_x.of(px, py, pz, from_middle);
-    const Float y = to_y.of(px, py, pz, from_middle);
-    const Float z = to_z.of(px, py, pz, from_middle);
-    hn::Store(x, df, &found.x[i]);
-    hn::Store(y, df, &found.y[i]);
-    hn::Store(z, df, &found.z[i]);
+    const Float x = hn::LoadU(df, points.x + i);
+    const Float y = hn::LoadU(df, points.y + i);
+    const Float z = hn::LoadU(df, points.z + i);
     hn::Store(near_planes(planes, 0, x, y, z, gate), dw, &found.low[i]);
     hn::Store(near_planes(planes, 32, x, y, z, gate), dw, &found.high[i]);
   }
@@ -138,6 +145,7 @@ namespace convexcut::robust {
 
 // Highway's table takes no noexcept functions; none of them throws.
 HWY_EXPORT(place_points);
+HWY_EXPORT(move_points);
 HWY_EXPORT(find_planes);
 
 void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
@@ -145,9 +153,14 @@ void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose
   HWY_DYNAMIC_DISPATCH(place_points)(cloud, begin, pose, placed);
 }
 
-void find_planes(const TimedPoints& points, std::size_t begin, const RigPose& pose,
-                 std::span<const Plane> planes, float gate_m, PointsOnPlanes& found) noexcept {
-  HWY_DYNAMIC_DISPATCH(find_planes)(points, begin, pose, planes, gate_m, found);
+void move_points(const PointColumns& points, const float* from_middle, const RigPose& pose,
+                 MovedPoints& moved) noexcept {
+  HWY_DYNAMIC_DISPATCH(move_points)(points, from_middle, pose, moved);
+}
+
+void find_planes(const PointColumns& points, std::span<const Plane> planes, float gate_m,
+                 PlaneSets& found) noexcept {
+  HWY_DYNAMIC_DISPATCH(find_planes)(points, planes, gate_m, found);
 }
 
 }  // namespace convexcut::robust

@@ -30,28 +30,34 @@ struct PlacedPoints {
 void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
                   PlacedPoints& placed) noexcept;
 
-// Points of a revolution, and when: their share of its time less a half (RigPose::apply). Whole
-// vectors are read: as many more elements as kPointsAtOnce follow the last.
-struct TimedPoints {
+// Columns of points. Whole vectors are read: as many more elements as kPointsAtOnce follow the
+// last.
+struct PointColumns {
   const float* x;
   const float* y;
   const float* z;
-  const float* from_middle;
 };
 
-// The same in the window's frame; and as bits, lowest first, the accepted planes that they are
-// near.
-struct PointsOnPlanes {
+// By RigPose::apply; from_middle: each point's share of the revolution's time, less a half.
+struct MovedPoints {
   alignas(64) std::array<float, kPointsAtOnce> x, y, z;
-  alignas(64) std::array<std::uint32_t, kPointsAtOnce> low, high;  // planes 0 … 31, 32 … 63
+  [[nodiscard]] PointColumns columns() const noexcept { return {x.data(), y.data(), z.data()}; }
+};
+void move_points(const PointColumns& points, const float* from_middle, const RigPose& pose,
+                 MovedPoints& moved) noexcept;
 
-  [[nodiscard]] std::uint64_t planes(std::size_t i) const noexcept {
+// Sets of accepted planes, as bits, the first plane lowest.
+class PlaneSets {
+ public:
+  [[nodiscard]] std::uint64_t operator[](std::size_t i) const noexcept {
     return (static_cast<std::uint64_t>(high[i]) << 32U) | low[i];
   }
+  alignas(64) std::array<std::uint32_t, kPointsAtOnce> low, high;  // planes 0 … 31, 32 … 63
 };
 
-// Points [begin, begin + kPointsAtOnce): near is nearer than gate_m. At most 64 planes.
-void find_planes(const TimedPoints& points, std::size_t begin, const RigPose& pose,
-                 std::span<const Plane> planes, float gate_m, PointsOnPlanes& found) noexcept;
+// Of kPointsAtOnce points each, the accepted planes that are at most gate_m away. At most 64
+// planes.
+void find_planes(const PointColumns& points, std::span<const Plane> planes, float gate_m,
+                 PlaneSets& found) noexcept;
 
 }  // namespace convexcut::robust
