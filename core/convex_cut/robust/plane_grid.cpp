@@ -181,6 +181,7 @@ void PlaneGrids::count_passages(const Model& model, std::size_t plane,
 
 float PlaneGrids::layer_near(std::size_t plane, const Vec3f& p) const noexcept {
   const PlaneGrid& g = grids_[plane];
+  if (!g.has_layers) return 0.0F;
   const std::int32_t column = g.column_of(p);
   const std::int32_t row = g.row_of(p);
   if (g.holds(column, row) && cell(g, column, row).layer_m != 0.0F) {
@@ -230,7 +231,10 @@ void PlaneGrids::mark_reach(const Plane& plane, PlaneGrid& g) noexcept {
   for (std::int32_t row = 0; row < g.rows; ++row) {
     std::uint8_t* to = &structure_[(static_cast<std::size_t>(row) + around) * width + around];
     const Cell* from = &cell(g, 0, row);
-    for (std::size_t c = 0; c < columns; ++c) to[c] = from[c].structure ? 1 : 0;
+    for (std::size_t c = 0; c < columns; ++c) {
+      to[c] = from[c].structure ? 1 : 0;
+      g.has_layers = g.has_layers || from[c].layer_m != 0.0F;
+    }
   }
   widen(width, 1);
   reach_.resize(g.first_reach + size);

@@ -49,6 +49,7 @@ struct PlaneGrid {
   std::int32_t around = 0;      // cells on each side that structure reaches beyond the rectangle
   std::size_t first_reach = 0;  // of the rectangle with those
   bool has_reach = false;       // of an accepted plane
+  bool has_layers = false;      // of such a one: fixtures on it
 
   [[nodiscard]] std::int32_t column_of(const Vec3f& p) const noexcept {
     return static_cast<std::int32_t>(std::floor(along.dot(p) / kCellM)) - first_along;
@@ -115,7 +116,8 @@ class PlaneGrids {
   [[nodiscard]] bool is_within_reach(std::size_t plane, const Vec3f& p) const noexcept {
     return (reach_at(plane, p) & kWithinReach) != 0;
   }
-  // The layer of the cell at p, or the greatest of those beside it; 0: none.
+  // Once mark_reach() was called: the layer of the cell at p, or the greatest of those beside it;
+  // 0: none.
   [[nodiscard]] float layer_near(std::size_t plane, const Vec3f& p) const noexcept;
 
  private:

@@ -53,8 +53,11 @@ HWY_INLINE void place(Float p, std::int32_t* lattice, std::int32_t* millimetres)
   hn::Store(hn::NearestInt(hn::Mul(off, hn::Set(df, 1e3F))), di, millimetres);
 }
 
-void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
-                  PlacedPoints& placed) {
+// Calls take(i, x, y, z) for whole vectors of the points [begin, begin + kPointsAtOnce), moved, i
+// from 0 on; behind the cloud's end points are anything.
+template <class Take>
+HWY_INLINE void for_each_moved(const CloudView& cloud, std::size_t begin, const RigPose& pose,
+                               Take&& take) noexcept {
   const Floats df;
   const Ints di;
   const std::size_t lanes = hn::Lanes(df);
@@ -62,29 +65,46 @@ void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose
   const Axis to_y(pose, 1);
   const Axis to_z(pose, 2);
   const Float points = hn::Set(df, static_cast<float>(cloud.size()));
-  const auto place_at = [&](std::size_t i, const float* x, const float* y,
-                            const float* z) HWY_ATTR {
+  const auto move_at = [&](std::size_t i, const float* xs, const float* ys,
+                           const float* zs) HWY_ATTR {
     const Float number = hn::ConvertTo(df, hn::Iota(di, static_cast<std::int32_t>(begin + i)));
     const Float from_middle = hn::Sub(hn::Div(number, points), hn::Set(df, 0.5F));
-    const Float px = hn::LoadU(df, x);
-    const Float py = hn::LoadU(df, y);
-    const Float pz = hn::LoadU(df, z);
-    place(to_x.of(px, py, pz, from_middle), &placed.x[i], &placed.x_mm[i]);
-    place(to_y.of(px, py, pz, from_middle), &placed.y[i], &placed.y_mm[i]);
-    place(to_z.of(px, py, pz, from_middle), &placed.z[i], &placed.z_mm[i]);
+    const Float x = hn::LoadU(df, xs);
+    const Float y = hn::LoadU(df, ys);
+    const Float z = hn::LoadU(df, zs);
+    take(i, to_x.of(x, y, z, from_middle), to_y.of(x, y, z, from_middle),
+         to_z.of(x, y, z, from_middle));
   };
   const std::size_t count = std::min(kPointsAtOnce, cloud.size() - begin);
   const float* x = cloud.x.data() + begin;
   const float* y = cloud.y.data() + begin;
   const float* z = cloud.z.data() + begin;
   std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) place_at(i, x + i, y + i, z + i);
+  for (; i + lanes <= count; i += lanes) move_at(i, x + i, y + i, z + i);
   if (i == count) return;
   HWY_ALIGN float last[3][hn::MaxLanes(df)] = {};
   std::copy(x + i, x + count, last[0]);
   std::copy(y + i, y + count, last[1]);
   std::copy(z + i, z + count, last[2]);
-  place_at(i, last[0], last[1], last[2]);
+  move_at(i, last[0], last[1], last[2]);
+}
+
+void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
+                  PlacedPoints& placed) {
+  for_each_moved(cloud, begin, pose, [&](std::size_t i, Float x, Float y, Float z) HWY_ATTR {
+    place(x, &placed.x[i], &placed.x_mm[i]);
+    place(y, &placed.y[i], &placed.y_mm[i]);
+    place(z, &placed.z[i], &placed.z_mm[i]);
+  });
+}
+
+void move_cloud(const CloudView& cloud, std::size_t begin, const RigPose& pose,
+                MovedPoints& moved) {
+  for_each_moved(cloud, begin, pose, [&](std::size_t i, Float x, Float y, Float z) HWY_ATTR {
+    hn::Store(x, Floats(), &moved.x[i]);
+    hn::Store(y, Floats(), &moved.y[i]);
+    hn::Store(z, Floats(), &moved.z[i]);
+  });
 }
 
 // The planes from `first` on that are accepted and within the gate, a bit each.
@@ -145,6 +165,7 @@ namespace convexcut::robust {
 
 // Highway's table takes no noexcept functions; none of them throws.
 HWY_EXPORT(place_points);
+HWY_EXPORT(move_cloud);
 HWY_EXPORT(move_points);
 HWY_EXPORT(find_planes);
 
@@ -156,6 +177,11 @@ void place_points(const CloudView& cloud, std::size_t begin, const RigPose& pose
 void move_points(const PointColumns& points, const float* from_middle, const RigPose& pose,
                  MovedPoints& moved) noexcept {
   HWY_DYNAMIC_DISPATCH(move_points)(points, from_middle, pose, moved);
+}
+
+void move_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
+                 MovedPoints& moved) noexcept {
+  HWY_DYNAMIC_DISPATCH(move_cloud)(cloud, begin, pose, moved);
 }
 
 void find_planes(const PointColumns& points, std::span<const Plane> planes, float gate_m,

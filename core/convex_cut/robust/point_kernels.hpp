@@ -38,12 +38,15 @@ struct PointColumns {
   const float* z;
 };
 
-// By RigPose::apply; from_middle: each point's share of the revolution's time, less a half.
 struct MovedPoints {
   alignas(64) std::array<float, kPointsAtOnce> x, y, z;
   [[nodiscard]] PointColumns columns() const noexcept { return {x.data(), y.data(), z.data()}; }
 };
+// By RigPose::apply; from_middle: each point's share of the revolution's time, less a half.
 void move_points(const PointColumns& points, const float* from_middle, const RigPose& pose,
+                 MovedPoints& moved) noexcept;
+// The points that place_points() places.
+void move_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
                  MovedPoints& moved) noexcept;
 
 // Sets of accepted planes, as bits, the first plane lowest.

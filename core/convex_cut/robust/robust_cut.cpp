@@ -2,6 +2,7 @@
 #include "core/convex_cut/robust/robust_cut.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -146,12 +147,15 @@ CutStatus RobustCut::label(const CloudView& cloud, std::span<Label> labels,
   take_near();
 
   std::size_t structure = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const float share = static_cast<float>(i) / static_cast<float>(cloud.size());
-    const Vec3f p = pose_.apply(robust::point_of(cloud, i), share);
-    const bool is = is_structure(p, voxel_of_point_[i]);
-    labels[i] = is ? Label::structure : Label::other;
-    structure += is ? 1U : 0U;
+  robust::MovedPoints moved;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += robust::kPointsAtOnce) {
+    robust::move_points(cloud, begin, pose_, moved);
+    for (std::size_t i = 0; i < std::min(robust::kPointsAtOnce, cloud.size() - begin); ++i) {
+      const Vec3f p(moved.x[i], moved.y[i], moved.z[i]);
+      const bool is = is_structure(p, voxel_of_point_[begin + i]);
+      labels[begin + i] = is ? Label::structure : Label::other;
+      structure += is ? 1U : 0U;
+    }
   }
   structure_share_ =
       static_cast<float>(structure) / static_cast<float>(std::max<std::size_t>(cloud.size(), 1));
@@ -247,26 +251,39 @@ void RobustCut::find_structure() noexcept {
 }
 
 void RobustCut::take_near() noexcept {
-  near_.clear();
+  const std::span<const Voxel> voxels = revolution_.voxels();
+  near_.resize(voxels.size());
   const float reach_m = parameters_.band_m + kHalfDiagonal * robust::kVoxelM;
-  for (const Voxel& voxel : revolution_.voxels()) {
-    Near near;
-    const auto merged = static_cast<std::size_t>(window_.map().find(voxel.key));
-    const bool known = merged < model_.surfels.size();
-    if (known && model_.surfels[merged].mirrored) {
-      near_.push_back(near);
-      continue;
+  robust::MovedPoints centres{};
+  robust::PlaneSets planes;
+  for (std::size_t begin = 0; begin < voxels.size(); begin += robust::kPointsAtOnce) {
+    const std::size_t count = std::min(robust::kPointsAtOnce, voxels.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3f centre = robust::centre_of(robust::place_of(voxels[begin + i].key));
+      centres.x[i] = centre.x();
+      centres.y[i] = centre.y();
+      centres.z[i] = centre.z();
     }
-    near.curved = known && !is_curved_.empty() && is_curved_[merged] != 0;
-    const Vec3f centre = robust::centre_of(robust::place_of(voxel.key));
-    for (std::size_t k = 0; k < model_.planes.size() && near.count < Near::kMost; ++k) {
-      const Plane& plane = model_.planes[k];
-      if (!plane.accepted || std::abs(plane.height_of(centre)) > reach_m) continue;
-      if (known && is_fixture(model_.surfels[merged], k)) continue;
-      near.planes.at(near.count++) = static_cast<std::uint8_t>(k);
+    robust::find_planes(centres.columns(), model_.planes, reach_m, planes);
+    for (std::size_t i = 0; i < count; ++i) {
+      near_[begin + i] = near_of(voxels[begin + i], planes[i]);
     }
-    near_.push_back(near);
   }
+}
+
+// planes: within reach of the voxel.
+RobustCut::Near RobustCut::near_of(const Voxel& voxel, std::uint64_t planes) const noexcept {
+  Near near;
+  const auto merged = static_cast<std::size_t>(window_.map().find(voxel.key));
+  const bool known = merged < model_.surfels.size();
+  if (known && model_.surfels[merged].mirrored) return near;
+  near.curved = known && !is_curved_.empty() && is_curved_[merged] != 0;
+  for (; planes != 0 && near.count < Near::kMost; planes &= planes - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(planes));
+    if (known && is_fixture(model_.surfels[merged], k)) continue;
+    near.planes.at(near.count++) = static_cast<std::uint8_t>(k);
+  }
+  return near;
 }
 
 // On a layer's cell or beside one, and nearer to the layer than to the wall.
