@@ -41,15 +41,11 @@ void for_each_around(const PlaneGrid& grid, std::uint32_t cell, std::int32_t rea
   const Vec3f image = surfel.mean - 2.0F * plane.height_of(surfel.mean) * plane.normal;
   const Vec3f direction =
       surfel.direction - 2.0F * plane.normal.dot(surfel.direction) * plane.normal;
-  bool found = false;
-  for_each_neighbour(map, key_of(place_of(image)), [&](std::size_t k, const Lattice&) {
+  return any_neighbour(map, key_of(place_of(image)), [&](std::size_t k, const Lattice&) {
     const Surfel& other = model.surfels[k];
-    found =
-        found ||
-        (other.supported && (other.mean - image).norm() < kSameM &&
-         (other.shape != Shape::plane || std::abs(other.direction.dot(direction)) > kSameNormal));
+    return other.supported && (other.mean - image).norm() < kSameM &&
+           (other.shape != Shape::plane || std::abs(other.direction.dot(direction)) > kSameNormal);
   });
-  return found;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include <Eigen/Eigenvalues>
 
@@ -19,8 +20,8 @@ using Mat3f = Eigen::Matrix3f;
 inline constexpr float kMostOffsetM = 0.2F;
 
 struct Moments {
-  std::int32_t count = 0;
   std::array<std::int32_t, 3> sum_mm{};
+  std::int32_t count = 0;
   std::array<std::int32_t, 6> products_mm2{};  // xx xy xz yy yz zz
 
   // One point, by its offset from the centre: at most 0.2 m an axis, so that 50,000 points of a
@@ -46,47 +47,63 @@ struct Moments {
   }
 };
 
-// Sums over several voxels, about one of their centres.
+// Sums over several voxels, about one of their centres. Four at a time, as every processor that is
+// supported can; the compilers' vectors are what Eigen's are made of.
 class Spread {
  public:
+  Spread() = default;
+
   // shift_m: from the common centre to the moments' own.
   void add(const Moments& m, const Vec3f& shift_m) noexcept {
-    const auto n = static_cast<float>(m.count);
-    std::array<float, 3> sum{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      sum[i] = static_cast<float>(m.sum_mm[i]) * 1e-3F;
-      sum_[i] += sum[i] + n * shift_m[static_cast<Eigen::Index>(i)];
-    }
-    const std::array<float, 3> shift{shift_m.x(), shift_m.y(), shift_m.z()};
-    for (std::size_t i = 0; i < 6; ++i) {
-      const std::size_t row = kRow[i];
-      const std::size_t column = kColumn[i];
-      products_[i] += static_cast<float>(m.products_mm2[i]) * 1e-6F + shift[row] * sum[column] +
-                      sum[row] * shift[column] + n * shift[row] * shift[column];
-    }
-    count_ += n;
+    const Four shift{shift_m.x(), shift_m.y(), shift_m.z(), 0.0F};
+    const Four sums = four_at(m.sum_mm.data()) * Four{1e-3F, 1e-3F, 1e-3F, 1.0F};
+    const Four n = __builtin_shufflevector(sums, sums, 3, 3, 3, 3);
+    sums_ += sums + n * shift;
+    first_ += product(four_at(m.products_mm2.data()), n, rows_first(sums), columns_first(sums),
+                      rows_first(shift), columns_first(shift));
+    last_ += product(four_at(m.products_mm2.data() + 2), n, rows_last(sums), columns_last(sums),
+                     rows_last(shift), columns_last(shift));
   }
-  [[nodiscard]] float count() const noexcept { return count_; }
+  [[nodiscard]] float count() const noexcept { return sums_[3]; }
   // m²; count() > 0.
   [[nodiscard]] Mat3f covariance() const noexcept {
-    Mat3f covariance;
-    for (std::size_t i = 0; i < 6; ++i) {
-      const auto row = static_cast<Eigen::Index>(kRow[i]);
-      const auto column = static_cast<Eigen::Index>(kColumn[i]);
-      covariance(row, column) = covariance(column, row) =
-          products_[i] / count_ - sum_[kRow[i]] / count_ * (sum_[kColumn[i]] / count_);
-    }
-    return covariance;
+    const Vec3f mean = Vec3f(sums_[0], sums_[1], sums_[2]) / count();
+    Mat3f products;
+    products << first_[0], first_[1], first_[2], first_[1], first_[3], last_[2], first_[2],
+        last_[2], last_[3];
+    return products / count() - mean * mean.transpose();
   }
 
  private:
-  // Of products: xx xy xz yy yz zz, as the lower triangle of a matrix.
-  static constexpr std::array<std::size_t, 6> kRow{0, 1, 2, 1, 2, 2};
-  static constexpr std::array<std::size_t, 6> kColumn{0, 0, 0, 1, 1, 2};
+  using Four = float __attribute__((vector_size(16)));
+  using FourInts = std::int32_t __attribute__((vector_size(16)));
 
-  float count_ = 0.0F;
-  std::array<float, 3> sum_{};
-  std::array<float, 6> products_{};
+  [[nodiscard]] static Four four_at(const std::int32_t* values) noexcept {
+    FourInts ints;
+    std::memcpy(&ints, values, sizeof(ints));
+    return __builtin_convertvector(ints, Four);
+  }
+  // Of products xx xy xz yy yz zz as a matrix's lower triangle, the first four and the last four.
+  [[nodiscard]] static Four rows_first(Four v) noexcept {
+    return __builtin_shufflevector(v, v, 0, 1, 2, 1);
+  }
+  [[nodiscard]] static Four columns_first(Four v) noexcept {
+    return __builtin_shufflevector(v, v, 0, 0, 0, 1);
+  }
+  [[nodiscard]] static Four rows_last(Four v) noexcept {
+    return __builtin_shufflevector(v, v, 2, 1, 2, 2);
+  }
+  [[nodiscard]] static Four columns_last(Four v) noexcept {
+    return __builtin_shufflevector(v, v, 0, 1, 1, 2);
+  }
+  [[nodiscard]] static Four product(Four own_mm2, Four n, Four sum_of_row, Four sum_of_column,
+                                    Four shift_of_row, Four shift_of_column) noexcept {
+    return own_mm2 * 1e-6F + shift_of_row * sum_of_column + sum_of_row * shift_of_column +
+           n * shift_of_row * shift_of_column;
+  }
+
+  Four sums_{};  // and the number of points
+  Four first_{}, last_{};
 };
 
 }  // namespace convexcut::robust

@@ -202,7 +202,10 @@ bool PlaneGrids::is_structure(std::size_t plane, const Vec3f& p,
   const PlaneGrid& g = grids_[plane];
   const std::int32_t column = g.column_of(p);
   const std::int32_t row = g.row_of(p);
-  if (g.holds(column, row) && cell(g, column, row).enclosed) return false;
+  if (g.holds(column, row)) {
+    const Cell& at = cell(g, column, row);
+    if (at.enclosed || at.structure) return !at.enclosed;
+  }
   for (std::int32_t r = std::max(row - around, 0); r <= std::min(row + around, g.rows - 1); ++r) {
     for (std::int32_t c = std::max(column - around, 0);
          c <= std::min(column + around, g.columns - 1); ++c) {

@@ -113,10 +113,10 @@ class VoxelMap {
   std::vector<Voxel> voxels_;
 };
 
-// Calls visit(index, offset) for the voxel and its 26 neighbours, those that are occupied; offset
-// in lattice steps.
-template <class Visit>
-void for_each_neighbour(const VoxelMap& map, VoxelKey key, Visit&& visit) noexcept {
+// Whether test(index, offset) is true of the voxel or one of its 26 neighbours, as far as they are
+// occupied; offset in lattice steps. Ends with the first.
+template <class Test>
+[[nodiscard]] bool any_neighbour(const VoxelMap& map, VoxelKey key, Test&& test) noexcept {
   constexpr VoxelKey kX = VoxelKey{1} << 42U;
   constexpr VoxelKey kY = VoxelKey{1} << 21U;
   const VoxelKey first = key - kX - kY - 1;  // the corner; keys add up as places do
@@ -140,10 +140,22 @@ void for_each_neighbour(const VoxelMap& map, VoxelKey key, Visit&& visit) noexce
         const auto step = [](std::uint32_t at, std::uint32_t from) {
           return static_cast<std::int32_t>(at - from) - 1;
         };
-        visit(static_cast<std::size_t>(index), Lattice{step(x, x0), step(y, y0), step(z, z0)});
+        if (test(static_cast<std::size_t>(index), Lattice{step(x, x0), step(y, y0), step(z, z0)})) {
+          return true;
+        }
       }
     }
   }
+  return false;
+}
+
+// Calls visit(index, offset) for all of them.
+template <class Visit>
+void for_each_neighbour(const VoxelMap& map, VoxelKey key, Visit&& visit) noexcept {
+  static_cast<void>(any_neighbour(map, key, [&](std::size_t index, const Lattice& offset) {
+    visit(index, offset);
+    return false;
+  }));
 }
 
 }  // namespace convexcut::robust
