@@ -25,6 +25,13 @@ enum State : std::uint8_t { kOpenState, kReached, kRefused };
   });
 }
 
+// Smoothly, from one voxel to the next.
+[[nodiscard]] bool goes_on(const Surfel& from, const Surfel& to) noexcept {
+  const Vec3f step = to.mean - from.mean;
+  return std::abs(from.direction.dot(to.direction)) >= kSmooth &&
+         std::abs(from.direction.dot(step)) <= kStepM && std::abs(to.direction.dot(step)) <= kStepM;
+}
+
 }  // namespace
 
 Curved::Curved(std::size_t max_surfels) {
@@ -43,7 +50,6 @@ std::span<const std::uint8_t> Curved::find(const Model& model, const PlaneGrids&
 
 void Curved::take_seeds(const Model& model, const PlaneGrids& grids) noexcept {
   state_.assign(model.surfels.size(), kOpenState);
-  queue_.clear();
   for (std::size_t i = 0; i < model.surfels.size(); ++i) {
     const Surfel& surfel = model.surfels[i];
     if (surfel.mirrored || surfel.shape != Shape::plane ||
@@ -55,29 +61,33 @@ void Curved::take_seeds(const Model& model, const PlaneGrids& grids) noexcept {
                          grids.is_structure(static_cast<std::size_t>(surfel.plane), surfel.mean, 0);
     if (on_wall) {
       state_[i] = kReached;
-      queue_.push_back(static_cast<std::uint32_t>(i));
     } else if (surfel.plane != kNoPlane && !is_on_narrow(model, grids, surfel)) {
       state_[i] = kRefused;
     }
   }
 }
 
+// First what goes on from a wall, then what goes on from that: there are far more surfels on walls
+// than there are open ones.
 void Curved::grow(const Model& model, const VoxelMap& map) noexcept {
+  queue_.clear();
+  const auto reach = [&](std::size_t i) {
+    state_[i] = kReached;
+    structure_[i] = 1;
+    queue_.push_back(static_cast<std::uint32_t>(i));
+  };
+  for (std::size_t i = 0; i < model.surfels.size(); ++i) {
+    if (state_[i] != kOpenState) continue;
+    if (any_neighbour(map, map.voxels()[i].key, [&](std::size_t k, const Lattice&) {
+          return state_[k] == kReached && goes_on(model.surfels[i], model.surfels[k]);
+        })) {
+      reach(i);
+    }
+  }
   for (std::size_t next = 0; next < queue_.size(); ++next) {
     const std::uint32_t i = queue_[next];
-    const Surfel& from = model.surfels[i];
     for_each_neighbour(map, map.voxels()[i].key, [&](std::size_t k, const Lattice&) {
-      if (state_[k] != kOpenState) return;
-      const Surfel& to = model.surfels[k];
-      const Vec3f step = to.mean - from.mean;
-      if (std::abs(from.direction.dot(to.direction)) < kSmooth ||
-          std::abs(from.direction.dot(step)) > kStepM ||
-          std::abs(to.direction.dot(step)) > kStepM) {
-        return;
-      }
-      state_[k] = kReached;
-      structure_[k] = 1;
-      queue_.push_back(static_cast<std::uint32_t>(k));
+      if (state_[k] == kOpenState && goes_on(model.surfels[i], model.surfels[k])) reach(k);
     });
   }
 }
