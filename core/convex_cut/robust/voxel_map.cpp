@@ -33,7 +33,7 @@ Vec3f centre_of(const Lattice& place) noexcept {
 }
 
 VoxelMap::VoxelMap(std::size_t capacity) {
-  const std::size_t blocks = capacity / 2 + kLeastBlocks;
+  const std::size_t blocks = capacity / 4 + kLeastBlocks;
   slots_.resize(std::bit_ceil(2 * blocks));
   places_.reserve((blocks + 1) * kBlock);
   block_voxels_.reserve(blocks + 1);

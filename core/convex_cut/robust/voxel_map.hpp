@@ -58,7 +58,8 @@ class VoxelMap {
  public:
   static constexpr std::int32_t kNone = -1;
 
-  // Allocates for that many voxels, in half as many blocks: about 230 bytes a voxel.
+  // Allocates for that many voxels, in a quarter as many blocks (surfaces fill them with ten and
+  // more): about 160 bytes a voxel.
   explicit VoxelMap(std::size_t capacity);
 
   void clear() noexcept;

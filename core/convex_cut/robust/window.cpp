@@ -9,31 +9,37 @@ namespace convexcut::robust {
 
 Window::Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std::size_t voxels)
     : slots_(revolutions), map_(voxels) {
-  for (Slot& slot : slots_) slot.entries.resize(voxels_per_revolution);
+  entries_.resize(std::max({std::size_t{1}, voxels_per_revolution,
+                            revolutions * std::min(voxels_per_revolution, kUsualVoxels)}));
 }
 
 void Window::clear() noexcept {
   map_.clear();
   oldest_ = newest_ = 0;
+  used_ = 0;
 }
 
 void Window::add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t keep) noexcept {
   keep = std::clamp<std::uint32_t>(keep, 1U, static_cast<std::uint32_t>(slots_.size()));
-  while (newest_ - oldest_ >= keep) forget_oldest();
+  const auto is_full = [&] {
+    return newest_ - oldest_ >= keep || used_ + revolution.size() > entries_.size();
+  };
+  while (newest_ != oldest_ && is_full()) forget_oldest();
   map_.remove_empty();
+  const Slot& last = slots_[(newest_ + slots_.size() - 1) % slots_.size()];
+  const std::size_t first = (last.first + last.count) % entries_.size();
   Slot& slot = slots_[newest_ % slots_.size()];
-  slot.origin = origin;
-  slot.count = 0;
+  slot = {first, 0, origin};
   for (const Voxel& voxel : revolution.voxels()) {
-    if (slot.count == slot.entries.size()) break;
     const std::int32_t index = map_.find_or_add(voxel.key);
     if (index == VoxelMap::kNone) continue;
     Voxel& merged = map_.voxels()[static_cast<std::size_t>(index)];
     merged.moments.add(voxel.moments, +1);
     merged.revolution = newest_;
     merged.changed = true;
-    slot.entries[slot.count++] = {voxel.key, voxel.moments};
+    entry(slot, slot.count++) = {voxel.key, voxel.moments};
   }
+  used_ += slot.count;
   ++newest_;
   take_shapes();
 }
@@ -41,12 +47,14 @@ void Window::add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t 
 void Window::forget_oldest() noexcept {
   const Slot& slot = slots_[oldest_++ % slots_.size()];
   for (std::size_t i = 0; i < slot.count; ++i) {
-    const std::int32_t index = map_.find(slot.entries[i].key);
+    const auto& [key, moments] = entry(slot, i);
+    const std::int32_t index = map_.find(key);
     if (index == VoxelMap::kNone) continue;
     Voxel& merged = map_.voxels()[static_cast<std::size_t>(index)];
-    merged.moments.add(slot.entries[i].moments, -1);
+    merged.moments.add(moments, -1);
     merged.changed = true;
   }
+  used_ -= slot.count;
 }
 
 void Window::take_shapes() noexcept {

@@ -15,7 +15,9 @@ namespace convexcut::robust {
 
 class Window {
  public:
-  // Allocates 56 bytes for every voxel of every revolution.
+  // Allocates for that many voxels, and 48 bytes for each voxel of each revolution, of which there
+  // are kUsualVoxels on the average: where there are more, fewer revolutions are kept.
+  static constexpr std::size_t kUsualVoxels = 14'336;  // in a hall of 60 m
   Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std::size_t voxels);
 
   void clear() noexcept;
@@ -38,13 +40,18 @@ class Window {
     Moments moments;
   };
   struct Slot {
-    Workspace<Entry> entries;
-    std::size_t count = 0;
+    std::size_t first = 0, count = 0;  // of its entries
     Vec3f origin = Vec3f::Zero();
   };
   void forget_oldest() noexcept;
   void take_shapes() noexcept;
+  [[nodiscard]] Entry& entry(const Slot& slot, std::size_t i) noexcept {
+    const std::size_t at = slot.first + i;
+    return entries_[at < entries_.size() ? at : at - entries_.size()];
+  }
 
+  Workspace<Entry> entries_;  // a ring: those of the revolutions in the map, the oldest first
+  std::size_t used_ = 0;
   std::vector<Slot> slots_;
   std::uint32_t oldest_ = 0;  // revolutions [oldest_, newest_) are in the map
   std::uint32_t newest_ = 0;
