@@ -62,8 +62,8 @@ std::vector<Reason> lasting_problems(const Realtime& realtime) {
   return {{Severity::degraded, "realtime set-up incomplete"}};
 }
 
-// What the robust method takes in a large hall on one core of a desktop (docs/accuracy.md).
-constexpr std::int64_t kRobustLatencyMs = 60;
+// What the robust method takes in a large hall on one core of a desktop (docs/design/robust.md).
+constexpr std::int64_t kRobustLatencyMs = 40;
 
 void warn_of_latency(const DaemonOptions& options) {
   const config::Config& config = options.config;

@@ -10,7 +10,7 @@ declare -A bound=(
   [level]=28
   [label]=348
   [stream]=859
-  [robust]=3000
+  [robust]=1557
 )
 
 # instructions STAGE ROUNDS

@@ -35,7 +35,7 @@ namespace convexcut {
 
 class RobustCut {
  public:
-  // Allocates everything it will ever need: 4 bytes a point and about 60 MB. Throws
+  // Allocates everything it will ever need: 4 bytes a point and about 86 MB. Throws
   // std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹, and
   // std::bad_alloc.
   RobustCut(const RobustParameters& parameters, std::size_t max_points);

@@ -106,7 +106,7 @@ TEST_F(DaemonProgram, ALatencyTooShortForTheRobustMethodIsToldAtTheStart) {
         run_daemon({"--lidar", lidar(), "--imu", imu(), "--rate", "max", "--set",
                     "convex_cut.method=robust", "--set", "worker.latency_ms=" + latency_ms});
     EXPECT_EQ(run.status, 0) << run.err;
-    return run.err.find("set worker.latency_ms=60") != std::string::npos;
+    return run.err.find("set worker.latency_ms=40") != std::string::npos;
   };
   EXPECT_TRUE(warned("10"));
   EXPECT_FALSE(warned("60"));
