@@ -109,7 +109,7 @@ TEST_F(DaemonProgram, ALatencyTooShortForTheRobustMethodIsToldAtTheStart) {
     return run.err.find("set worker.latency_ms=40") != std::string::npos;
   };
   EXPECT_TRUE(warned("10"));
-  EXPECT_FALSE(warned("60"));
+  EXPECT_FALSE(warned("40"));
 }
 
 TEST_F(DaemonProgram, ALidarPortInTheDdsDomainsRangeIsRefused) {
