@@ -45,7 +45,7 @@ struct Bounds {
 
 }  // namespace
 
-PlaneGrids::PlaneGrids(std::size_t max_surfels) : rays_(std::make_unique<Rays>(max_surfels)) {
+PlaneGrids::PlaneGrids(std::size_t max_surfels) : rays_(max_surfels) {
   grids_.reserve(PlaneSearch::kMostPlanes);
   cells_.reserve(kMostCells);
   extents_.reserve(kMostExtents);
@@ -54,8 +54,6 @@ PlaneGrids::PlaneGrids(std::size_t max_surfels) : rays_(std::make_unique<Rays>(m
   structure_.reserve(kMostReach);
   widened_.reserve(kMostReach);
 }
-
-PlaneGrids::~PlaneGrids() = default;
 
 void PlaneGrids::build(Model& model) noexcept {
   grids_.clear();
@@ -147,19 +145,19 @@ void PlaneGrids::take_passable(const PlaneGrid& g) noexcept {
 }
 
 void PlaneGrids::mark_passed(const Model& model) noexcept {
-  rays_->clear();
+  rays_.clear();
   for (std::size_t i = 0; i < model.surfels.size(); ++i) {
     const Surfel& surfel = model.surfels[i];
-    if (surfel.is_evidence()) rays_->add(i, surfel.origin, surfel.mean);
+    if (surfel.is_evidence()) rays_.add(i, surfel.origin, surfel.mean);
   }
   passable_.resize(extents_.size());
   for (std::size_t k = 0; k < grids_.size(); ++k) {
     if (model.planes[k].vertical) take_passable(grids_[k]);
   }
   Passages passages;
-  for (std::size_t begin = 0; begin < rays_->size(); begin += kRaysAtOnce) {
+  for (std::size_t begin = 0; begin < rays_.size(); begin += kRaysAtOnce) {
     for (std::size_t k = 0; k < grids_.size(); ++k) {
-      find_passages(*rays_, begin, model.planes[k], grids_[k], kBehindM, kInFrontM, passages);
+      find_passages(rays_, begin, model.planes[k], grids_[k], kBehindM, kInFrontM, passages);
       count_passages(model, k, passages);
     }
   }

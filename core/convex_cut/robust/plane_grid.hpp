@@ -8,11 +8,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/convex_cut/robust/model.hpp"
+#include "core/convex_cut/robust/rays.hpp"
 
 namespace convexcut::robust {
 
@@ -79,12 +79,10 @@ struct Extent {
 };
 
 struct Passages;
-class Rays;
 
 class PlaneGrids {
  public:
   explicit PlaneGrids(std::size_t max_surfels);
-  ~PlaneGrids();
 
   // For the model's planes; a plane that no room is left for loses its surfels.
   void build(Model& model) noexcept;
@@ -101,7 +99,7 @@ class PlaneGrids {
     return extents_[grid.first_extent + static_cast<std::size_t>(column)];
   }
   // Of the surfels that are evidence when the grids are built, in their order.
-  [[nodiscard]] const Rays& rays() const noexcept { return *rays_; }
+  [[nodiscard]] const Rays& rays() const noexcept { return rays_; }
   // Whether the cell at p, or one within `around` of it, is structure; not where it is enclosed.
   [[nodiscard]] bool is_structure(std::size_t plane, const Vec3f& p,
                                   std::int32_t around) const noexcept;
@@ -158,7 +156,7 @@ class PlaneGrids {
   std::vector<Cell> cells_;
   std::vector<Extent> extents_;
   std::vector<Extent> passable_;  // by column of a vertical plane: where a ray is above or below it
-  std::unique_ptr<Rays> rays_;
+  Rays rays_;
 };
 
 }  // namespace convexcut::robust

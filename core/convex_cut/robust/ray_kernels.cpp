@@ -102,20 +102,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace convexcut::robust {
 
-Rays::Rays(std::size_t capacity) : stride_(capacity + kRaysAtOnce) {
-  values_.resize(6 * stride_);
-  surfels_.resize(capacity);
-}
-
-void Rays::add(std::size_t surfel, const Vec3f& origin, const Vec3f& end) noexcept {
-  surfels_[size_] = static_cast<std::uint32_t>(surfel);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    values_[axis * stride_ + size_] = origin[static_cast<Eigen::Index>(axis)];
-    values_[(axis + 3) * stride_ + size_] = end[static_cast<Eigen::Index>(axis)];
-  }
-  ++size_;
-}
-
 // Highway's table takes no noexcept functions; none of them throws.
 HWY_EXPORT(find_passages);
 
