@@ -62,10 +62,12 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
     if (extent_m() > kMaxCoordinateM) return;
     steps_.lay_out.run(member, [&](std::uint32_t) {
       index_.lay_out();
+      steps_.number.prepare(static_cast<std::uint32_t>(index_.runs()));
       const auto pieces = static_cast<std::uint32_t>(index_.pieces());
       steps_.spread.prepare(pieces);
       steps_.write.prepare(pieces);
     });
+    steps_.number.run(member, [&](std::uint32_t run) { index_.number_keys(run); });
     steps_.place.run(member, [&](std::uint32_t part) { index_.place(part); });
     steps_.spread.run(member, [&](std::uint32_t piece) { index_.spread(piece); });
     steps_.slices.run(member,
@@ -78,12 +80,14 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
 
 void ConvexCutEngine::prepare_steps(std::uint32_t plane_stride) noexcept {
   const auto parts = static_cast<std::uint32_t>(index_.parts());
-  const auto planes = static_cast<std::uint32_t>(planes_.size());
-  const std::uint32_t cut_planes = (planes + plane_stride - 1) / plane_stride;
   steps_.count.prepare(parts);
   steps_.lay_out.prepare(1);
   steps_.place.prepare(parts);
-  steps_.slices.prepare((cut_planes + kPlanesAtOnce - 1) / kPlanesAtOnce);
+  steps_.slices.prepare((cut_planes(plane_stride) + kPlanesAtOnce - 1) / kPlanesAtOnce);
+}
+
+std::uint32_t ConvexCutEngine::cut_planes(std::uint32_t plane_stride) const noexcept {
+  return (static_cast<std::uint32_t>(planes_.size()) + plane_stride - 1) / plane_stride;
 }
 
 // The greatest magnitude of a coordinate. Infinity and the NaNs are greater than any number.
@@ -95,9 +99,13 @@ float ConvexCutEngine::extent_m() const noexcept {
 void ConvexCutEngine::process_slices(SliceWorker& worker, std::uint32_t group,
                                      std::uint32_t plane_stride) noexcept {
   if (!worker.has_begun()) worker.begin(index_, extent_m());
-  const std::size_t first = std::size_t{group} * kPlanesAtOnce * plane_stride;
-  const std::size_t last = first + std::size_t{kPlanesAtOnce} * plane_stride;
-  for (std::size_t i = first; i < std::min(last, planes_.size()); i += plane_stride) {
+  const std::size_t planes = cut_planes(plane_stride);
+  constexpr std::size_t kHalfTurnBuckets = ShellIndex::kBuckets / 2;
+  const std::size_t front =
+      planes * (index_.front_bucket() % kHalfTurnBuckets) / kHalfTurnBuckets;
+  const std::size_t first = std::size_t{group} * kPlanesAtOnce;
+  for (std::size_t k = first; k < std::min(first + kPlanesAtOnce, planes); ++k) {
+    const std::size_t i = (front + k) % planes * plane_stride;
     worker.process(planes_[i], windows_[i]);
   }
 }

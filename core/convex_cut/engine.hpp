@@ -43,9 +43,10 @@ class ConvexCutEngine {
  private:
   // The steps that the team shares, in turn.
   struct Steps {
-    SharedStep count, lay_out, place, spread, slices, write;
+    SharedStep count, lay_out, number, place, spread, slices, write;
   };
   void prepare_steps(std::uint32_t plane_stride) noexcept;
+  [[nodiscard]] std::uint32_t cut_planes(std::uint32_t plane_stride) const noexcept;
   void process_slices(SliceWorker& worker, std::uint32_t group,
                       std::uint32_t plane_stride) noexcept;
   void write_labels(std::uint32_t piece, std::span<Label> labels) noexcept;

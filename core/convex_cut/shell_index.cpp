@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "core/convex_cut/cloud_kernels.hpp"
@@ -21,6 +22,10 @@ static_assert(kKeys <= 0x1'0000, "a key is 16 bits wide");
 // relative to the radius: a hundred times the rounding of the float keys.
 constexpr double kTurnSlack = 1e-4;
 constexpr double kRadiusSlack = 1e-5;
+
+// Of a shell, where those of the four quarter turns are cut by its end.
+constexpr std::size_t kQuarters = 4;
+constexpr std::size_t kMostRuns = (kQuarters + 1) * ShellIndex::kShells;
 
 // The columns of more points than this, 8 MB, are not in a cache any more when they are read.
 constexpr std::size_t kMostInCache = std::size_t{1} << 19U;
@@ -52,7 +57,9 @@ ShellIndex::ShellIndex(double half_width_m, std::size_t max_points, unsigned thr
       z_(max_points + kKernelPadding, 3),
       source_(max_points + kKernelPadding, 4),
       starts_(kKeys + 1),
-      pieces_(max_points / kChunk + 1 + 3 * kShells) {
+      strip_starts_(kStrips + 1),
+      runs_(kMostRuns),
+      pieces_(max_points / kChunk + 1 + kMostRuns) {
   for (Part& part : parts_) part.counts.resize(kKeys);
   for (std::size_t shell = 0; shell < kShells; ++shell) {
     // u² = r² − v², and |v| < d.
@@ -70,6 +77,7 @@ void ShellIndex::build(const CloudView& cloud) noexcept {
   begin(cloud);
   for (std::size_t part = 0; part < parts(); ++part) static_cast<void>(count(part));
   lay_out();
+  for (std::size_t run = 0; run < runs(); ++run) number_keys(run);
   for (std::size_t part = 0; part < parts(); ++part) place(part);
   for (std::size_t k = 0; k < pieces(); ++k) spread(k);
 }
@@ -77,9 +85,14 @@ void ShellIndex::build(const CloudView& cloud) noexcept {
 void ShellIndex::begin(const CloudView& cloud) noexcept {
   cloud_ = cloud;
   size_ = cloud.size();
+  const std::size_t shares = 2 * parts_.size();
+  const auto share_begin = [this, shares](std::size_t k) {
+    return static_cast<std::uint32_t>(size_ * k / shares);
+  };
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    parts_[k].begin = size_ * k / parts_.size();
-    parts_[k].end = size_ * (k + 1) / parts_.size();
+    const std::size_t opposite = k + parts_.size();
+    parts_[k].points = {Range{share_begin(k), share_begin(k + 1)},
+                        Range{share_begin(opposite), share_begin(opposite + 1)}};
   }
 }
 
@@ -87,19 +100,31 @@ std::uint32_t ShellIndex::count(std::size_t part_number) noexcept {
   Part& part = parts_[part_number];
   part.bounds = {};
   std::fill_n(part.counts.data(), kKeys, 0U);
-  for (std::size_t begin = part.begin; begin < part.end; begin += kChunk) {
-    const std::size_t end = std::min(begin + kChunk, part.end);
-    const KeyBounds bounds =
-        shell_keys(cloud_, begin, end, inverse_squared_half_width_, keys_.data());
-    part.bounds.magnitude_bits = std::max(part.bounds.magnitude_bits, bounds.magnitude_bits);
-    if (bounds.magnitude_bits > std::bit_cast<std::uint32_t>(kMaxCoordinateM)) break;
-    part.bounds.least = std::min(part.bounds.least, bounds.least);
-    part.bounds.greatest = std::max(part.bounds.greatest, bounds.greatest);
-    rank_points(keys_.data() + begin, end - begin, part.counts.data(), ranks_.data() + begin);
+  for (const Range& points : part.points) count_points(part, points);
+  part.strip_counts.fill(0);
+  const std::size_t end = (part.bounds.greatest / kBuckets + 1) * kStripsOfShell;
+  for (std::size_t k = part.bounds.least / kBuckets * kStripsOfShell; k < end; ++k) {
+    const std::uint32_t* const counts = part.counts.data() + k * kStripBuckets;
+    part.strip_counts[k] = std::accumulate(counts, counts + kStripBuckets, 0U);
   }
   return part.bounds.magnitude_bits;
 }
 
+void ShellIndex::count_points(Part& part, Range points) noexcept {
+  for (std::size_t begin = points.begin; begin < points.end; begin += kChunk) {
+    const std::size_t end = std::min<std::size_t>(begin + kChunk, points.end);
+    const KeyBounds bounds =
+        shell_keys(cloud_, begin, end, inverse_squared_half_width_, keys_.data());
+    part.bounds.magnitude_bits = std::max(part.bounds.magnitude_bits, bounds.magnitude_bits);
+    if (bounds.magnitude_bits > std::bit_cast<std::uint32_t>(kMaxCoordinateM)) return;
+    part.bounds.least = std::min(part.bounds.least, bounds.least);
+    part.bounds.greatest = std::max(part.bounds.greatest, bounds.greatest);
+    rank_points(keys_.data() + begin, end - begin, part.counts.data(), ranks_.data() + begin);
+  }
+}
+
+// Touches nothing that is as long as the keys: another thread's counts would have to come from its
+// cache.
 void ShellIndex::lay_out() noexcept {
   KeyBounds bounds;
   for (const Part& part : parts_) {
@@ -107,36 +132,61 @@ void ShellIndex::lay_out() noexcept {
     bounds.greatest = std::max(bounds.greatest, part.bounds.greatest);
   }
   used_shell_count_ = 0;
-  std::uint32_t begin = 0;
-  for (std::size_t shell = bounds.least / kBuckets; shell <= bounds.greatest / kBuckets; ++shell) {
-    const std::uint32_t shell_begin = begin;
-    for (std::size_t key = shell * kBuckets; key < (shell + 1) * kBuckets; ++key) {
-      starts_[key] = begin;
-      for (Part& part : parts_) begin += std::exchange(part.counts[key], begin);
-    }
-    starts_[(shell + 1) * kBuckets] = begin;
-    if (begin != shell_begin) used_shells_[used_shell_count_++] = shell;
-  }
-  lay_out_pieces();
-}
-
-// Each shell is cut where the first point is and opposite.
-void ShellIndex::lay_out_pieces() noexcept {
+  run_count_ = 0;
   piece_count_ = 0;
   if (size_ == 0) return;
-  const std::size_t one = keys_[0] % kBuckets;
-  const std::size_t other = (one + kBuckets / 2) % kBuckets;
-  const auto [from, to] = std::minmax(one, other);
-  const std::size_t early = keys_[size_ / 4] % kBuckets;
-  const bool starts_between = early >= from && early < to;
-  for (const bool between : {starts_between, !starts_between}) {
-    for (std::size_t k = 0; k < used_shell_count_; ++k) {
-      const std::uint32_t* const start = starts_.data() + used_shells_[k] * kBuckets;
-      if (between) {
-        add_pieces(start[from], start[to]);
-      } else {
-        add_pieces(start[0], start[from]);
-        add_pieces(start[to], start[kBuckets]);
+  const std::size_t least_shell = bounds.least / kBuckets;
+  const std::size_t greatest_shell = bounds.greatest / kBuckets;
+  std::uint32_t begin = 0;
+  for (std::size_t shell = least_shell; shell <= greatest_shell; ++shell) {
+    const std::uint32_t shell_begin = begin;
+    for (std::size_t k = shell * kStripsOfShell; k < (shell + 1) * kStripsOfShell; ++k) {
+      strip_starts_[k] = begin;
+      for (const Part& part : parts_) begin += part.strip_counts[k];
+    }
+    if (begin != shell_begin) used_shells_[used_shell_count_++] = shell;
+  }
+  strip_starts_[(greatest_shell + 1) * kStripsOfShell] = begin;
+  starts_[(greatest_shell + 1) * kBuckets] = begin;
+  lay_out_runs(least_shell, greatest_shell);
+}
+
+// The quarter turns begin where the first point is.
+void ShellIndex::lay_out_runs(std::size_t least_shell, std::size_t greatest_shell) noexcept {
+  constexpr std::size_t kStripsOfQuarter = kStripsOfShell / kQuarters;
+  const std::size_t first = keys_[0] % kBuckets;
+  const std::size_t later = keys_[size_ / 8] % kBuckets;
+  const std::size_t turned = (later + kBuckets - first) % kBuckets;
+  const bool turns_left = turned < kBuckets / 2;
+  const std::size_t nearest = (first + kStripBuckets / 2) / kStripBuckets;
+  front_strip_ =
+      (nearest + (turns_left ? 0 : kStripsOfShell - kStripsOfQuarter)) % kStripsOfShell;
+  for (const std::size_t quarter : {0U, 2U, 1U, 3U}) {
+    const std::size_t from = (front_strip_ + quarter * kStripsOfQuarter) % kStripsOfShell;
+    const std::size_t to = from + kStripsOfQuarter;
+    for (std::size_t shell = least_shell; shell <= greatest_shell; ++shell) {
+      const std::size_t begin = shell * kStripsOfShell;
+      const std::size_t end = begin + kStripsOfShell;
+      add_run(begin + from, std::min(begin + to, end));
+      if (to > kStripsOfShell) add_run(begin, begin + to - kStripsOfShell);
+    }
+  }
+}
+
+void ShellIndex::add_run(std::size_t begin, std::size_t end) noexcept {
+  runs_[run_count_++] = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  add_pieces(strip_starts_[begin], strip_starts_[end]);
+}
+
+void ShellIndex::number_keys(std::size_t run) noexcept {
+  for (std::size_t strip = runs_[run].begin; strip < runs_[run].end; ++strip) {
+    std::uint32_t begin = strip_starts_[strip];
+    const std::size_t keys_begin = strip * kStripBuckets;
+    for (std::size_t key = keys_begin; key < keys_begin + kStripBuckets; ++key) {
+      starts_[key] = begin;
+      for (Part& part : parts_) {
+        if (part.strip_counts[strip] == 0) continue;  // its counts stay where they are
+        begin += std::exchange(part.counts[key], begin);
       }
     }
   }
@@ -158,8 +208,10 @@ void ShellIndex::add_pieces(std::uint32_t begin, std::uint32_t end) noexcept {
 
 void ShellIndex::place(std::size_t part_number) noexcept {
   const Part& part = parts_[part_number];
-  place_points(cloud_, keys_.data(), ranks_.data(), part.begin, part.end, part.counts.data(),
-               records_.data());
+  for (const Range& points : part.points) {
+    place_points(cloud_, keys_.data(), ranks_.data(), points.begin, points.end, part.counts.data(),
+                 records_.data());
+  }
 }
 
 void ShellIndex::spread(std::size_t piece_number) noexcept {

@@ -58,19 +58,25 @@ class ShellIndex {
   //     magnitude of a coordinate (see greatest_magnitude_bits); when that is beyond
   //     kMaxCoordinateM, the part has not been counted and the build has to be given up.
   //  3. lay_out
-  //  4. place(part) for each part
-  //  5. spread(piece) for each piece
+  //  4. number_keys(run) for each run
+  //  5. place(part) for each part
+  //  6. spread(piece) for each piece
   void begin(const CloudView& cloud) noexcept;
   [[nodiscard]] std::uint32_t count(std::size_t part_number) noexcept;
   void lay_out() noexcept;
+  void number_keys(std::size_t run) noexcept;
   void place(std::size_t part) noexcept;
   void spread(std::size_t piece) noexcept;
   [[nodiscard]] std::size_t parts() const noexcept { return parts_.size(); }
-  // Positions that are worked on at once, known from lay_out() on. Those of the half turn that the
-  // first half of the cloud covers, where it comes from a rotor, are in front: in the cache of the
-  // thread that has placed them.
+  // What can be worked on at once, known from lay_out() on: runs of keys, and positions. In front
+  // are those of the two opposite quarter turns that the first and the third quarter of the cloud
+  // cover, where it comes from a rotor: in the cache of the thread that has counted and placed
+  // them. Planes whose slices lie there have directions between front_bucket() and a quarter turn
+  // more.
+  [[nodiscard]] std::size_t runs() const noexcept { return run_count_; }
   [[nodiscard]] std::size_t pieces() const noexcept { return piece_count_; }
   [[nodiscard]] Range piece(std::size_t k) const noexcept { return pieces_[k]; }
+  [[nodiscard]] std::size_t front_bucket() const noexcept { return front_strip_ * kStripBuckets; }
   static constexpr std::size_t kChunk = 4096;  // points of a piece, at most
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -118,14 +124,22 @@ class ShellIndex {
   }
 
  private:
+  // Neighbouring buckets of a shell.
+  static constexpr std::size_t kStripsOfShell = 32;
+  static constexpr std::size_t kStripBuckets = kBuckets / kStripsOfShell;
+  static constexpr std::size_t kStrips = kShells * kStripsOfShell;
+
   struct Part {
-    std::size_t begin = 0;  // its points in the cloud
-    std::size_t end = 0;
+    // Its points in the cloud, in opposite directions where a rotor has turned once.
+    std::array<Range, 2> points;
     std::vector<std::uint32_t> counts;  // of each key; then the place of the first one
+    std::array<std::uint32_t, kStrips> strip_counts{};
     KeyBounds bounds;
   };
 
-  void lay_out_pieces() noexcept;
+  void count_points(Part& part, Range points) noexcept;
+  void lay_out_runs(std::size_t least_shell, std::size_t greatest_shell) noexcept;
+  void add_run(std::size_t begin, std::size_t end) noexcept;
   void add_pieces(std::uint32_t begin, std::uint32_t end) noexcept;
 
   float inverse_squared_half_width_;
@@ -139,7 +153,11 @@ class ShellIndex {
   Column<PointRecord> records_;
   Column<float> x_, y_, z_;
   Column<std::uint32_t> source_;
-  std::vector<std::uint32_t> starts_;  // of each key in the sorted points, and the end
+  std::vector<std::uint32_t> starts_;        // of each key in the sorted points, and the end
+  std::vector<std::uint32_t> strip_starts_;  // of each strip, and the end
+  std::size_t front_strip_ = 0;
+  std::vector<Range> runs_;  // of strips
+  std::size_t run_count_ = 0;
   std::array<std::size_t, kShells> used_shells_{};
   std::size_t used_shell_count_ = 0;
   std::vector<Range> pieces_;
