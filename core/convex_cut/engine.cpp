@@ -62,10 +62,9 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
     if (extent_m() > kMaxCoordinateM) return;
     steps_.lay_out.run(member, [&](std::uint32_t) {
       index_.lay_out();
-      steps_.number.prepare(static_cast<std::uint32_t>(index_.runs()));
-      const auto pieces = static_cast<std::uint32_t>(index_.pieces());
-      steps_.spread.prepare(pieces);
-      steps_.write.prepare(pieces);
+      prepare_step(steps_.number, index_.runs());
+      prepare_step(steps_.spread, index_.pieces());
+      prepare_step(steps_.write, index_.pieces());
     });
     steps_.number.run(member, [&](std::uint32_t run) { index_.number_keys(run); });
     steps_.place.run(member, [&](std::uint32_t part) { index_.place(part); });
@@ -79,11 +78,20 @@ CutStatus ConvexCutEngine::label(const CloudView& cloud, std::span<Label> labels
 }
 
 void ConvexCutEngine::prepare_steps(std::uint32_t plane_stride) noexcept {
-  const auto parts = static_cast<std::uint32_t>(index_.parts());
-  steps_.count.prepare(parts);
+  const ShellIndex::Shares parts{index_.parts(), (index_.parts() + 1) / 2};
+  prepare_step(steps_.count, parts);
   steps_.lay_out.prepare(1);
-  steps_.place.prepare(parts);
+  prepare_step(steps_.place, parts);
   steps_.slices.prepare((cut_planes(plane_stride) + kPlanesAtOnce - 1) / kPlanesAtOnce);
+}
+
+void ConvexCutEngine::prepare_step(SharedStep& step, const ShellIndex::Shares& shares) noexcept {
+  const auto items = static_cast<std::uint32_t>(shares.count);
+  if (team_.size() == 1) {
+    step.prepare(items);
+  } else {
+    step.prepare(items, static_cast<std::uint32_t>(shares.in_front));
+  }
 }
 
 std::uint32_t ConvexCutEngine::cut_planes(std::uint32_t plane_stride) const noexcept {
@@ -101,8 +109,7 @@ void ConvexCutEngine::process_slices(SliceWorker& worker, std::uint32_t group,
   if (!worker.has_begun()) worker.begin(index_, extent_m());
   const std::size_t planes = cut_planes(plane_stride);
   constexpr std::size_t kHalfTurnBuckets = ShellIndex::kBuckets / 2;
-  const std::size_t front =
-      planes * (index_.front_bucket() % kHalfTurnBuckets) / kHalfTurnBuckets;
+  const std::size_t front = planes * (index_.front_bucket() % kHalfTurnBuckets) / kHalfTurnBuckets;
   const std::size_t first = std::size_t{group} * kPlanesAtOnce;
   for (std::size_t k = first; k < std::min(first + kPlanesAtOnce, planes); ++k) {
     const std::size_t i = (front + k) % planes * plane_stride;

@@ -46,6 +46,7 @@ class ConvexCutEngine {
     SharedStep count, lay_out, number, place, spread, slices, write;
   };
   void prepare_steps(std::uint32_t plane_stride) noexcept;
+  void prepare_step(SharedStep& step, const ShellIndex::Shares& shares) noexcept;
   [[nodiscard]] std::uint32_t cut_planes(std::uint32_t plane_stride) const noexcept;
   void process_slices(SliceWorker& worker, std::uint32_t group,
                       std::uint32_t plane_stride) noexcept;

@@ -77,9 +77,9 @@ void ShellIndex::build(const CloudView& cloud) noexcept {
   begin(cloud);
   for (std::size_t part = 0; part < parts(); ++part) static_cast<void>(count(part));
   lay_out();
-  for (std::size_t run = 0; run < runs(); ++run) number_keys(run);
+  for (std::size_t run = 0; run < runs().count; ++run) number_keys(run);
   for (std::size_t part = 0; part < parts(); ++part) place(part);
-  for (std::size_t k = 0; k < pieces(); ++k) spread(k);
+  for (std::size_t k = 0; k < pieces().count; ++k) spread(k);
 }
 
 void ShellIndex::begin(const CloudView& cloud) noexcept {
@@ -132,8 +132,8 @@ void ShellIndex::lay_out() noexcept {
     bounds.greatest = std::max(bounds.greatest, part.bounds.greatest);
   }
   used_shell_count_ = 0;
-  run_count_ = 0;
-  piece_count_ = 0;
+  run_shares_ = {};
+  piece_shares_ = {};
   if (size_ == 0) return;
   const std::size_t least_shell = bounds.least / kBuckets;
   const std::size_t greatest_shell = bounds.greatest / kBuckets;
@@ -159,8 +159,7 @@ void ShellIndex::lay_out_runs(std::size_t least_shell, std::size_t greatest_shel
   const std::size_t turned = (later + kBuckets - first) % kBuckets;
   const bool turns_left = turned < kBuckets / 2;
   const std::size_t nearest = (first + kStripBuckets / 2) / kStripBuckets;
-  front_strip_ =
-      (nearest + (turns_left ? 0 : kStripsOfShell - kStripsOfQuarter)) % kStripsOfShell;
+  front_strip_ = (nearest + (turns_left ? 0 : kStripsOfShell - kStripsOfQuarter)) % kStripsOfShell;
   for (const std::size_t quarter : {0U, 2U, 1U, 3U}) {
     const std::size_t from = (front_strip_ + quarter * kStripsOfQuarter) % kStripsOfShell;
     const std::size_t to = from + kStripsOfQuarter;
@@ -170,22 +169,25 @@ void ShellIndex::lay_out_runs(std::size_t least_shell, std::size_t greatest_shel
       add_run(begin + from, std::min(begin + to, end));
       if (to > kStripsOfShell) add_run(begin, begin + to - kStripsOfShell);
     }
+    if (quarter == 2) {
+      run_shares_.in_front = run_shares_.count;
+      piece_shares_.in_front = piece_shares_.count;
+    }
   }
 }
 
 void ShellIndex::add_run(std::size_t begin, std::size_t end) noexcept {
-  runs_[run_count_++] = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  runs_[run_shares_.count++] = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
   add_pieces(strip_starts_[begin], strip_starts_[end]);
 }
 
 void ShellIndex::number_keys(std::size_t run) noexcept {
   for (std::size_t strip = runs_[run].begin; strip < runs_[run].end; ++strip) {
     std::uint32_t begin = strip_starts_[strip];
-    const std::size_t keys_begin = strip * kStripBuckets;
-    for (std::size_t key = keys_begin; key < keys_begin + kStripBuckets; ++key) {
+    for (std::size_t key = strip * kStripBuckets; key < (strip + 1) * kStripBuckets; ++key) {
       starts_[key] = begin;
       for (Part& part : parts_) {
-        if (part.strip_counts[strip] == 0) continue;  // its counts stay where they are
+        if (part.strip_counts[strip] == 0) continue;  // its counts stay in its thread's cache
         begin += std::exchange(part.counts[key], begin);
       }
     }
@@ -201,7 +203,7 @@ void ShellIndex::add_pieces(std::uint32_t begin, std::uint32_t end) noexcept {
   const std::uint32_t last = at_line(end);
   for (std::uint32_t next = at_line(begin); next < last;) {
     const std::uint32_t piece_end = std::min<std::uint32_t>(next + kChunk, last);
-    pieces_[piece_count_++] = {next, piece_end};
+    pieces_[piece_shares_.count++] = {next, piece_end};
     next = piece_end;
   }
 }

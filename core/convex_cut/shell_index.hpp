@@ -73,8 +73,12 @@ class ShellIndex {
   // cover, where it comes from a rotor: in the cache of the thread that has counted and placed
   // them. Planes whose slices lie there have directions between front_bucket() and a quarter turn
   // more.
-  [[nodiscard]] std::size_t runs() const noexcept { return run_count_; }
-  [[nodiscard]] std::size_t pieces() const noexcept { return piece_count_; }
+  struct Shares {
+    std::size_t count = 0;
+    std::size_t in_front = 0;  // of these two quarter turns
+  };
+  [[nodiscard]] const Shares& runs() const noexcept { return run_shares_; }
+  [[nodiscard]] const Shares& pieces() const noexcept { return piece_shares_; }
   [[nodiscard]] Range piece(std::size_t k) const noexcept { return pieces_[k]; }
   [[nodiscard]] std::size_t front_bucket() const noexcept { return front_strip_ * kStripBuckets; }
   static constexpr std::size_t kChunk = 4096;  // points of a piece, at most
@@ -157,11 +161,11 @@ class ShellIndex {
   std::vector<std::uint32_t> strip_starts_;  // of each strip, and the end
   std::size_t front_strip_ = 0;
   std::vector<Range> runs_;  // of strips
-  std::size_t run_count_ = 0;
+  Shares run_shares_;
   std::array<std::size_t, kShells> used_shells_{};
   std::size_t used_shell_count_ = 0;
   std::vector<Range> pieces_;
-  std::size_t piece_count_ = 0;
+  Shares piece_shares_;
 };
 
 }  // namespace convexcut

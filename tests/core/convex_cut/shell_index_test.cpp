@@ -35,7 +35,7 @@ void expect_every_point_once(ShellIndex& index, const test::Cloud& cloud) {
   }
   ASSERT_EQ(std::ranges::count(held, 1), std::ssize(held));
   std::vector<int> in_pieces(cloud.size(), 0);
-  for (std::size_t k = 0; k < index.pieces(); ++k) {
+  for (std::size_t k = 0; k < index.pieces().count; ++k) {
     const auto [begin, end] = index.piece(k);
     ASSERT_LE(end - begin, ShellIndex::kChunk);
     for (std::uint32_t position = begin; position < end; ++position) ++in_pieces.at(position);

@@ -5,10 +5,13 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "core/convex_cut/shared_step.hpp"
 
 namespace convexcut {
 namespace {
@@ -70,6 +73,40 @@ TEST(WorkerTeam, OfNobodyIsTheCallingThreadAlone) {
   team.run(work);
   EXPECT_EQ(team.size(), 1U);
   EXPECT_EQ(calls, 1);
+}
+
+TEST(SharedStep, DoesEachItemOnceWhoeverHasItInItsCache) {
+  for (const unsigned size : {1U, 2U, 3U}) {
+    WorkerTeam team(size);
+    for (const std::uint32_t items : {0U, 1U, 7U, 100U}) {
+      for (const std::uint32_t of_front : {0U, items / 3, items}) {
+        std::vector<int> done(items, 0);  // plain: the step orders the accesses
+        SharedStep step;
+        SharedStep after;
+        step.prepare(items, of_front);
+        after.prepare(1);
+        int sum = 0;
+        auto work = [&](unsigned member) noexcept {
+          step.run(member, [&](std::uint32_t item) { ++done[item]; });
+          after.run(member, [&](std::uint32_t) {
+            for (const int times : done) sum += times == 1 ? 1 : 1000;
+          });
+        };
+        team.run(work);
+        ASSERT_EQ(sum, static_cast<int>(items));
+      }
+    }
+  }
+}
+
+TEST(SharedStep, DoesNotWaitForSomebodyWhoNeverComes) {
+  for (const unsigned member : {0U, 1U}) {
+    SharedStep step;
+    step.prepare(10, 5);
+    int done = 0;
+    step.run(member, [&](std::uint32_t) { ++done; });
+    EXPECT_EQ(done, 10);
+  }
 }
 
 TEST(WorkerTeam, StopsWithoutEverHavingWorked) { EXPECT_EQ(WorkerTeam(4).size(), 4U); }
