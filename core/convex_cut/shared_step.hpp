@@ -40,7 +40,7 @@ class SharedStep {
     for (std::uint32_t next = 0;;) {
       if (!has_waited && next >= own_items) {
         has_waited = true;
-        if (others_finish(done_here)) return;
+        if (others_finish(from_the_back, done_here)) return;
         done_here = 0;
       }
       // Relaxed: the counts only deal the items out.
@@ -70,13 +70,19 @@ class SharedStep {
   }
 
   // Taking an item out of another thread's cache takes longer than it does there: so those who are
-  // through with theirs give the others some microseconds.
-  bool others_finish(std::uint32_t done_here) noexcept {
-    constexpr int kSpins = 200;
+  // through with theirs leave the others some time, and more when they have begun.
+  bool others_finish(bool from_the_back, std::uint32_t done_here) noexcept {
+    constexpr int kSpinsToBegin = 200;
+    constexpr int kSpins = 1500;
     if (has_done(done_here)) return true;
     for (int spin = 0; spin < kSpins; ++spin) {
       // Acquire: pairs with the release in has_done().
       if (done_.load(std::memory_order_acquire) >= items_) return true;
+      if (spin == kSpinsToBegin) {
+        // Relaxed: a guess.
+        const std::uint64_t taken = taken_.load(std::memory_order_relaxed);
+        if ((from_the_back ? taken % kOneFromTheBack : taken / kOneFromTheBack) == 0) return false;
+      }
       hwy::Pause();
     }
     return false;

@@ -183,14 +183,21 @@ void ShellIndex::add_run(std::size_t begin, std::size_t end) noexcept {
 
 void ShellIndex::number_keys(std::size_t run) noexcept {
   for (std::size_t strip = runs_[run].begin; strip < runs_[run].end; ++strip) {
-    std::uint32_t begin = strip_starts_[strip];
-    for (std::size_t key = strip * kStripBuckets; key < (strip + 1) * kStripBuckets; ++key) {
-      starts_[key] = begin;
+    const std::size_t first = strip * kStripBuckets;
+    std::array<std::uint32_t, kStripBuckets> places{};
+    // The counts of a part without points here stay in its thread's cache.
+    const auto for_each_part = [&](auto&& visit) {
       for (Part& part : parts_) {
-        if (part.strip_counts[strip] == 0) continue;  // its counts stay in its thread's cache
-        begin += std::exchange(part.counts[key], begin);
+        if (part.strip_counts[strip] == 0) continue;
+        std::uint32_t* const counts = part.counts.data() + first;
+        for (std::size_t k = 0; k < kStripBuckets; ++k) visit(places[k], counts[k]);
       }
-    }
+    };
+    for_each_part([](std::uint32_t& sum, std::uint32_t count) { sum += count; });
+    std::exclusive_scan(places.begin(), places.end(), places.begin(), strip_starts_[strip]);
+    std::ranges::copy(places, starts_.data() + first);
+    for_each_part(
+        [](std::uint32_t& next, std::uint32_t& count) { next += std::exchange(count, next); });
   }
 }
 
