@@ -8,8 +8,8 @@ cd "$(dirname "$0")/.."
 declare -A bound=(
   [decode]=53
   [level]=28
-  [label]=348
-  [stream]=859
+  [label]=335
+  [stream]=799
   [robust]=1557
 )
 
