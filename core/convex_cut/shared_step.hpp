@@ -28,8 +28,8 @@ class SharedStep {
   // all have been done. Members with even numbers take them from the front, the others from the
   // back: from step to step and from cloud to cloud a thread meets what it has in its own cache.
   // What was written by an item is visible after. A thread that comes late finds the items taken:
-  // nobody waits for one that has not come yet. RT: no allocation, no lock; a system call only when
-  // other threads take long over their last items.
+  // nobody waits long for one that has not come yet. RT: no allocation, no lock; a system call only
+  // when other threads take long over their last items.
   template <class Work>
   void run(unsigned member, Work&& work) noexcept {
     const bool from_the_back = member % 2 != 0;

@@ -54,8 +54,7 @@ class ShellIndex {
   // any thread, and all of them have returned before the next step begins.
   //  1. begin
   //  2. count(part_number) for each part: sorts nothing yet. Returns the bit pattern of the
-  //  greatest
-  //     magnitude of a coordinate (see greatest_magnitude_bits); when that is beyond
+  //     greatest magnitude of a coordinate (see greatest_magnitude_bits); when that is beyond
   //     kMaxCoordinateM, the part has not been counted and the build has to be given up.
   //  3. lay_out
   //  4. number_keys(run) for each run
@@ -68,11 +67,10 @@ class ShellIndex {
   void place(std::size_t part) noexcept;
   void spread(std::size_t piece) noexcept;
   [[nodiscard]] std::size_t parts() const noexcept { return parts_.size(); }
-  // What can be worked on at once, known from lay_out() on: runs of keys, and positions. In front
-  // are those of the two opposite quarter turns that the first and the third quarter of the cloud
-  // cover, where it comes from a rotor: in the cache of the thread that has counted and placed
-  // them. Planes whose slices lie there have directions between front_bucket() and a quarter turn
-  // more.
+  // What can be worked on at once, known from lay_out() on: runs of keys, and pieces of the sorted
+  // points. In front are those of the two opposite quarter turns that the first and the third
+  // quarter of the cloud cover, where it comes from a rotor and there are two parts: in the cache
+  // of the thread that has counted and placed them.
   struct Shares {
     std::size_t count = 0;
     std::size_t in_front = 0;  // of these two quarter turns
@@ -80,6 +78,7 @@ class ShellIndex {
   [[nodiscard]] const Shares& runs() const noexcept { return run_shares_; }
   [[nodiscard]] const Shares& pieces() const noexcept { return piece_shares_; }
   [[nodiscard]] Range piece(std::size_t k) const noexcept { return pieces_[k]; }
+  // Where one of these quarter turns begins: slices of planes from there on lie in them.
   [[nodiscard]] std::size_t front_bucket() const noexcept { return front_strip_ * kStripBuckets; }
   static constexpr std::size_t kChunk = 4096;  // points of a piece, at most
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -89,6 +90,38 @@ TEST(ShellIndex, OffersEveryMemberOfEverySliceOnceWithinBounds) {
         }
         ASSERT_LE(std::ranges::count_if(offered, [](int times) { return times > 1; }), 0);
       }
+    }
+  }
+}
+
+TEST(ShellIndex, HasThePointsOfTheFirstPartInFront) {
+  constexpr int kPoints = 8000;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  for (const double sense : {-1.0, 1.0}) {
+    for (const double start_turns : {0.0, 0.12, 0.4, 0.77}) {
+      test::Cloud cloud;
+      for (int i = 0; i < kPoints; ++i) {
+        const double angle = kTurn * (start_turns + sense * i / kPoints);
+        cloud.add(4.0 * std::cos(angle), 4.0 * std::sin(angle), 0.1);
+      }
+      ShellIndex index(0.05, cloud.size(), 2);
+      index.build(cloud.view());
+      int in_front = 0;
+      int of_first_part = 0;
+      for (std::size_t k = 0; k < index.pieces().in_front; ++k) {
+        for (std::uint32_t position = index.piece(k).begin; position < index.piece(k).end;
+             ++position) {
+          ++in_front;
+          of_first_part += index.source(position) / (kPoints / 4) % 2 == 0 ? 1 : 0;
+        }
+      }
+      EXPECT_NEAR(in_front, kPoints / 2, kPoints / 20) << sense << " " << start_turns;
+      EXPECT_GT(of_first_part, in_front * 8 / 10) << sense << " " << start_turns;
+      // The direction a little behind the front bucket is that of a point of the first part.
+      const double turns =
+          static_cast<double>(index.front_bucket()) / ShellIndex::kBuckets + 0.1 - start_turns;
+      const double in_turn = sense * turns - std::floor(sense * turns);
+      EXPECT_EQ(static_cast<int>(in_turn * 4.0) % 2, 0) << sense << " " << start_turns;
     }
   }
 }
