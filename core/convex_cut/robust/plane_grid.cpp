@@ -15,7 +15,7 @@ constexpr std::size_t kMostCells = 1U << 18U;
 constexpr std::size_t kMostExtents = 1U << 14U;
 constexpr std::int32_t kMargin = 2;  // cells around what was seen
 // Flat planes reach as far beyond their rectangle, which has at least five rows, on both sides.
-constexpr std::size_t kBeyond = 2 * (kFlatReach - kMargin);
+constexpr std::size_t kBeyond = std::size_t{2} * (kFlatReach - kMargin);
 constexpr std::size_t kMostReach = kMostCells + kBeyond * (kMostExtents + kMostCells / 5) +
                                    kBeyond * kBeyond * PlaneSearch::kMostPlanes;
 constexpr std::int32_t kMarginUp = 12;  // of vertical planes: from floor to ceiling
