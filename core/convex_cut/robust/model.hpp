@@ -39,6 +39,7 @@ struct Plane {
   std::uint32_t surfels = 0;
   float spread2 = 0.0F;   // m², of its points about it
   float face_m = 0.0F;    // where most of it lies, over itself
+  bool edge_on = false;   // was mostly seen along itself: rings of the lidar, no surface
   bool vertical = false;  // a wall or the front of something; else a floor, a ceiling, a slope
   bool accepted = false;  // some of its cells are structure
 

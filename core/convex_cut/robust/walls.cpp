@@ -22,9 +22,10 @@ constexpr float kMarginM = 0.2F;  // to floor and ceiling
 constexpr std::uint32_t kLeastCells = 4;
 constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
 
-// Fronts of books, folds of curtains. Of narrow faces the shape is told elsewhere.
+// Fronts of books, folds of curtains. Of narrow faces the shape is told elsewhere, and a wall up to
+// the ceiling is rough by what hangs on it.
 [[nodiscard]] bool is_rough(const Model& model, const WallSegment& s) noexcept {
-  return s.width_m() > kNarrowM && model.planes[s.plane].spread2 > kRough * model.noise2;
+  return s.top_m < model.ceiling_z - kToCeilingM && s.width_m() > kNarrowM && model.planes[s.plane].spread2 > kRough * model.noise2;
 }
 
 // Whether rays pass columns [first, end) in most rows between two heights.
@@ -68,7 +69,7 @@ Walls::Walls() { columns_.reserve(kMostColumns); }
 void Walls::find(Model& model, PlaneGrids& grids, const RobustParameters& parameters) noexcept {
   model.segments.clear();
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
-    if (!model.planes[k].vertical) continue;
+    if (!model.planes[k].vertical || model.planes[k].edge_on) continue;
     take_columns(model, grids, k);
     split(model, grids, k, parameters.free_space);
   }
