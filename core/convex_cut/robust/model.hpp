@@ -53,6 +53,7 @@ struct WallSegment {
   float begin_m = 0.0F, end_m = 0.0F;   // along the plane
   float bottom_m = 0.0F, top_m = 0.0F;  // z of what was seen of it
   std::uint32_t closed = 0, open = 0;   // cells seen in columns that nothing, something passes
+  float steps = 0.0F;                   // share of neighbouring cells that are not equally deep
   bool accepted = false;
   bool narrow = false;     // may be a pillar or a person
   bool furniture = false;  // a wall is close behind

@@ -30,8 +30,9 @@ constexpr float kKnownMotionM = 0.02F;
 constexpr float kLeastFilled = 0.018F;  // of what a surface across the beams would return
 constexpr float kViewSr = 4.5F;         // steradians, of an HDL-32E
 constexpr float kEdgeOnM = 0.10F;       // nearer to the lidar a plane is seen along itself
-constexpr float kStillM = 0.02F;        // a step below this is none
 constexpr float kLeastOfLastShare = 0.5F;
+constexpr float kStillM = 0.02F;  // a step below this is none
+constexpr float kLasting = 0.5F;  // of a step that is not given: where no plane holds it, it ends
 constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
 constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
 
@@ -171,6 +172,8 @@ robust::RigPose RobustCut::predicted(const std::optional<Vec3>& position_m) cons
   robust::RigPose guess = pose_;
   if (position_m && given_position_m_) {
     guess.step = pose_.r_window_from_level * (*position_m - *given_position_m_).cast<float>();
+  } else {
+    guess.step *= kLasting;
   }
   if (guess.step.norm() < kStillM) guess.step.setZero();
   guess.position += guess.step;
