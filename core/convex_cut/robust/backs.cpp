@@ -71,7 +71,7 @@ void mark_backs(const Model& model, PlaneGrids& grids) noexcept {
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       for (std::int32_t column = 0; column < grid.columns; ++column) {
         Cell& cell = grids.cell(grid, column, row);
-        cell.enclosed = cell.structure && any_before(grids, grid, column, row - kReach, row) &&
+        cell.enclosed = any_before(grids, grid, column, row - kReach, row) &&
                         any_before(grids, grid, column, row + 1, row + 1 + kReach);
       }
     }

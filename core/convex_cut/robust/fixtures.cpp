@@ -22,10 +22,6 @@ constexpr float kLeastDoorM = 0.5F;
 constexpr float kMostDoorM = 1.3F;
 constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
 
-[[nodiscard]] float mean_of(const Cell& cell) noexcept {
-  return cell.height_sum_m / static_cast<float>(cell.points);
-}
-
 // The height over the plane that most cells have.
 [[nodiscard]] float face_of(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
   std::array<std::int32_t, kBins> cells{};
@@ -33,7 +29,7 @@ constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
     for (std::int32_t column = 0; column < grid.columns; ++column) {
       const Cell& cell = grids.cell(grid, column, row);
       if (!cell.structure || cell.points < kLeastPoints) continue;
-      const auto bin = static_cast<std::ptrdiff_t>(std::lround(mean_of(cell) / kBinM)) +
+      const auto bin = static_cast<std::ptrdiff_t>(std::lround(cell.mean_m() / kBinM)) +
                        static_cast<std::ptrdiff_t>(kBins / 2);
       if (bin > 0 && bin < static_cast<std::ptrdiff_t>(kBins) - 1) {
         ++cells.at(static_cast<std::size_t>(bin));
@@ -53,7 +49,7 @@ constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
 
 [[nodiscard]] bool is_off(const Cell& cell, float face_m) noexcept {
   return cell.structure && !cell.visited && cell.points >= kLeastPoints &&
-         std::abs(mean_of(cell) - face_m) > kOffM;
+         std::abs(cell.mean_m() - face_m) > kOffM;
 }
 
 }  // namespace
@@ -86,7 +82,7 @@ void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float fac
   const auto take = [&](std::int32_t column, std::int32_t row) {
     Cell& cell = grids.cell(grid, column, row);
     cell.visited = true;
-    cell.layer_m = mean_of(cell) - face_m;
+    cell.layer_m = cell.mean_m() - face_m;
     layer_.push_back({column, row});
   };
   take(seed.column, seed.row);
@@ -97,7 +93,7 @@ void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float fac
       for (std::int32_t column = at.column - 1; column <= at.column + 1; ++column) {
         if (!grid.holds(column, row) || layer_.size() == kMostCells) continue;
         const Cell& cell = grids.cell(grid, column, row);
-        if (is_off(cell, face_m) && (mean_of(cell) - face_m) * sign > 0.0F) take(column, row);
+        if (is_off(cell, face_m) && (cell.mean_m() - face_m) * sign > 0.0F) take(column, row);
       }
     }
   }

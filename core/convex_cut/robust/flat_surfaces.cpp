@@ -48,7 +48,7 @@ void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
   parts_.clear();
   open_parts_.clear();
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
-    if (model.planes[k].vertical) continue;
+    if (model.planes[k].vertical || model.planes[k].edge_on) continue;
     const PlaneGrid& grid = grids.grid(k);
     std::int16_t id = 0;
     for (std::int32_t row = 0; row < grid.rows; ++row) {

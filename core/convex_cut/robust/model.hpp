@@ -39,6 +39,7 @@ struct Plane {
   std::uint32_t surfels = 0;
   float spread2 = 0.0F;   // m², of its points about it
   float face_m = 0.0F;    // where most of it lies, over itself
+  bool edge_on = false;   // was mostly seen along itself: rings of the lidar, no surface
   bool vertical = false;  // a wall or the front of something; else a floor, a ceiling, a slope
   bool accepted = false;  // some of its cells are structure
 
@@ -52,6 +53,7 @@ struct WallSegment {
   float begin_m = 0.0F, end_m = 0.0F;   // along the plane
   float bottom_m = 0.0F, top_m = 0.0F;  // z of what was seen of it
   std::uint32_t closed = 0, open = 0;   // cells seen in columns that nothing, something passes
+  float steps = 0.0F;                   // share of neighbouring cells that are not equally deep
   bool accepted = false;
   bool narrow = false;     // may be a pillar or a person
   bool furniture = false;  // a wall is close behind

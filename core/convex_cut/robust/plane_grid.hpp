@@ -35,6 +35,8 @@ struct Cell {
   bool before = false;    // something is seen close before it
   bool enclosed = false;  // that above and below: the back of a shelf
   bool visited = false;
+
+  [[nodiscard]] float mean_m() const noexcept { return height_sum_m / static_cast<float>(points); }
 };
 
 // A plane's axes and its rectangle of cells. Vertical planes: `along` is horizontal, `up` is

@@ -29,8 +29,10 @@ constexpr float kUnknownMotionM = 0.10F;  // in a revolution, one sigma
 constexpr float kKnownMotionM = 0.02F;
 constexpr float kLeastFilled = 0.018F;  // of what a surface across the beams would return
 constexpr float kViewSr = 4.5F;         // steradians, of an HDL-32E
-constexpr float kStillM = 0.02F;        // a step below this is none
+constexpr float kEdgeOnM = 0.10F;       // nearer to the lidar a plane is seen along itself
 constexpr float kLeastOfLastShare = 0.5F;
+constexpr float kStillM = 0.02F;  // a step below this is none
+constexpr float kLasting = 0.5F;  // of a step that is not given: where no plane holds it, it ends
 constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
 constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
 
@@ -73,17 +75,20 @@ constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
 void measure_spread(robust::Model& model, std::span<const Voxel> voxels) noexcept {
   std::array<double, robust::PlaneSearch::kMostPlanes> points{};
   std::array<double, robust::PlaneSearch::kMostPlanes> squares{};
+  std::array<std::uint32_t, robust::PlaneSearch::kMostPlanes> along{};  // surfels
   for (std::size_t i = 0; i < model.surfels.size(); ++i) {
     const Surfel& surfel = model.surfels[i];
     if (surfel.plane == robust::kNoPlane) continue;
     const auto k = static_cast<std::size_t>(surfel.plane);
     const Plane& plane = model.planes[k];
     const float height = plane.height_of(surfel.mean);
+    along.at(k) += std::abs(plane.height_of(surfel.origin)) < kEdgeOnM ? 1U : 0U;
     points.at(k) += surfel.points;
     squares.at(k) += static_cast<double>(surfel.points) *
                      static_cast<double>(spread2_across(voxels[i], plane) + height * height);
   }
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    model.planes[k].edge_on = 2 * along.at(k) > model.planes[k].surfels;
     model.planes[k].spread2 = static_cast<float>(squares.at(k) / std::max(points.at(k), 1.0));
   }
   std::array<const Plane*, kLargestPlanes> largest{};
@@ -167,6 +172,8 @@ robust::RigPose RobustCut::predicted(const std::optional<Vec3>& position_m) cons
   robust::RigPose guess = pose_;
   if (position_m && given_position_m_) {
     guess.step = pose_.r_window_from_level * (*position_m - *given_position_m_).cast<float>();
+  } else {
+    guess.step *= kLasting;
   }
   if (guess.step.norm() < kStillM) guess.step.setZero();
   guess.position += guess.step;

@@ -16,15 +16,44 @@ constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
 constexpr float kToCeilingM = 0.35F;
 constexpr float kWidestScreenM = 2.5F;
 constexpr float kBelowCeilingM = 0.45F;
-constexpr float kRough = 2.5F;  // spread², relative to the noise²
+constexpr float kRough = 2.5F;   // spread², relative to the noise²
+constexpr float kUneven = 1.3F;  // the same, where there are steps as well
+constexpr float kMostSteps = 0.3F;
+constexpr float kStepM = 0.015F;
+constexpr std::int32_t kLeastPoints = 8;  // of a cell, for its mean
+constexpr std::int32_t kLeastPairs = 7;
 constexpr std::int32_t kBeside = 2;
 constexpr float kMarginM = 0.2F;  // to floor and ceiling
 constexpr std::uint32_t kLeastCells = 4;
 constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
 
-// Fronts of books, folds of curtains. Of narrow faces the shape is told elsewhere.
+// The share of neighbouring cells of columns [first, end) whose means differ: great where depths
+// change from book to book, small on a wall with a picture on it. 0 where too few are known.
+[[nodiscard]] float share_of_steps(const PlaneGrids& grids, const PlaneGrid& grid,
+                                   std::int32_t first, std::int32_t end) noexcept {
+  std::int32_t pairs = 0;
+  std::int32_t steps = 0;
+  const auto compare = [&](const Cell& cell, const Cell& next) {
+    if (cell.points < kLeastPoints || next.points < kLeastPoints) return;
+    ++pairs;
+    steps += std::abs(cell.mean_m() - next.mean_m()) > kStepM ? 1 : 0;
+  };
+  for (std::int32_t c = first; c < end; ++c) {
+    for (std::int32_t row = 0; row < grid.rows; ++row) {
+      const Cell& cell = grids.cell(grid, c, row);
+      if (c + 1 < end) compare(cell, grids.cell(grid, c + 1, row));
+      if (row + 1 < grid.rows) compare(cell, grids.cell(grid, c, row + 1));
+    }
+  }
+  return pairs < kLeastPairs ? 0.0F : static_cast<float>(steps) / static_cast<float>(pairs);
+}
+
+// Fronts of books, folds of curtains. Of narrow faces the shape is told elsewhere, and a wall up to
+// the ceiling is rough by what hangs on it.
 [[nodiscard]] bool is_rough(const Model& model, const WallSegment& s) noexcept {
-  return s.width_m() > kNarrowM && model.planes[s.plane].spread2 > kRough * model.noise2;
+  if (s.width_m() < kNarrowM || s.top_m > model.ceiling_z - kToCeilingM) return false;
+  const float spread = model.planes[s.plane].spread2 / model.noise2;
+  return spread > kRough || (spread > kUneven && s.steps > kMostSteps);
 }
 
 // Whether rays pass columns [first, end) in most rows between two heights.
@@ -68,7 +97,7 @@ Walls::Walls() { columns_.reserve(kMostColumns); }
 void Walls::find(Model& model, PlaneGrids& grids, const RobustParameters& parameters) noexcept {
   model.segments.clear();
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
-    if (!model.planes[k].vertical) continue;
+    if (!model.planes[k].vertical || model.planes[k].edge_on) continue;
     take_columns(model, grids, k);
     split(model, grids, k, parameters.free_space);
   }
@@ -208,6 +237,7 @@ void Walls::add_segment(Model& model, const PlaneGrids& grids, std::size_t plane
         std::min(segment.bottom_m, grid.centre(p, c, column.bottom).z() - kCellM / 2);
     segment.top_m = std::max(segment.top_m, grid.centre(p, c, column.top).z() + kCellM / 2);
   }
+  segment.steps = share_of_steps(grids, grid, first, end);
   model.segments.push_back(segment);
 }
 

@@ -63,6 +63,72 @@ TEST(RobustRules, RemovesAWideFrontOfBooksAndKeepsAFlatOne) {
   }
 }
 
+// Of what a front of blocks, 0.3 m wide, is kept: by how much the next one is set back.
+template <class SetBack>
+double kept_of_blocks(double top_m, SetBack&& set_back_m) {
+  BoxRoom room;
+  room.walls = {{-4.0, -2.1, -1.2}, {3.0, 2.1, top_m}};
+  for (int i = 0; i < 14; ++i) {
+    const double y = -2.1 + 0.3 * i;
+    room.boxes.push_back({{2.6 + set_back_m(i), y, -1.2}, {3.0, y + 0.3, top_m}});
+  }
+  Kept kept = cut(room, {});
+  for (int& box : kept.cloud.box) box = std::min(box, 0);
+  return kept.share_of(0);
+}
+
+TEST(RobustRules, TellsBooksFromAPanelByStepsFromCellToCell) {
+  EXPECT_LT(kept_of_blocks(1.6, [](int i) { return i % 2 == 0 ? 0.0 : 0.04; }), kRemoved);
+  EXPECT_GT(kept_of_blocks(1.6, [](int i) { return i < 7 ? 0.0 : 0.025; }), kKept);
+}
+
+TEST(RobustRules, AWallUpToTheCeilingMayBeRough) {
+  const auto uneven_m = [](int i) { return 0.06 * (i % 2); };
+  EXPECT_LT(kept_of_blocks(1.6, uneven_m), kMostlyRemoved);
+  EXPECT_GT(kept_of_blocks(0.3, uneven_m), 0.7);
+}
+
+// Rings of the lidar that lie in one plane with it, as a level one does whatever it meets.
+TEST(RobustRules, WhatIsSeenAlongItselfIsNoSurface) {
+  constexpr int kDisc = 0;
+  test::LabelledCloud seen = test::revolution_in({}, {});
+  for (int ring = 0; ring < 12; ++ring) {
+    for (int i = 0; i < 120; ++i) {
+      const double angle = 0.5 + 0.01 * i;
+      const double range = 0.8 + 0.1 * ring;
+      seen.cloud.add(range * std::cos(angle), range * std::sin(angle), 0.01 * ((i % 3) - 1));
+      seen.box.push_back(kDisc);
+    }
+  }
+  Kept kept{seen, std::vector<Label>(seen.cloud.size())};
+  RobustCut robust({}, test::kMostPoints);
+  ASSERT_EQ(robust.label(seen.cloud.view(), kept.labels), CutStatus::ok);
+  EXPECT_LT(kept.share_of(kDisc), kRemoved);
+  EXPECT_GT(kept.share_of(test::kWalls), 0.98);
+}
+
+// A corridor whose ends are out of view from the fourth revolution on: the rig may stand by then.
+TEST(RobustRules, AMotionThatNoPlaneHoldsDiesOut) {
+  constexpr double kStepM = 0.06;
+  BoxRoom corridor;
+  corridor.walls = {{-4.0, -1.2, -1.2}, {4.0, 1.2, 1.6}};
+  RobustCut robust({}, test::kMostPoints);
+  for (int i = 0; i < 12; ++i) {
+    const bool moves = i < 3;
+    if (!moves) corridor.walls = {{-60.0, -1.2, -1.2}, {60.0, 1.2, 1.6}};
+    const test::Sight sight{.position = {moves ? kStepM * i : 2 * kStepM, 0.0, 0.0},
+                            .step = {moves ? kStepM : 0.0, 0.0, 0.0},
+                            .seed = static_cast<std::uint64_t>(i)};
+    (void)test::last_of(robust, corridor, sight, 1);
+  }
+  float farthest = 0.0F;
+  for (const robust::Surfel& surfel : robust.model().surfels) {
+    farthest = std::max(farthest, surfel.origin.x());
+  }
+  EXPECT_GT(farthest, 1.5F * static_cast<float>(kStepM));
+  EXPECT_LT(farthest, 8.0F * static_cast<float>(kStepM));
+}
+
 // Their tops are out of view.
 TEST(RobustRules, RemovesABoardThatStandsFreeAndKeepsAWallAsThin) {
   EXPECT_LT(cut(test::with({{2.0, -0.6, -1.0}, {2.05, 0.9, 0.9}}), {}).share_of(0), kRemoved);
@@ -98,6 +164,17 @@ TEST(RobustRules, RemovesTheWallThatIsSeenBetweenShelves) {
     room.boxes.push_back({{2.2, -0.5, z}, {2.5, 0.5, z + 0.04}});
   }
   EXPECT_LT(cut(room, {}).share_of(0), kMostlyRemoved);
+}
+
+// Farther apart than two cells, where not every cell of the back was taken for the wall.
+TEST(RobustRules, RemovesTheBackBetweenShelvesThatAreFarApart) {
+  BoxRoom room;
+  room.walls = {{-4.0, -3.0, -1.2}, {2.5, 3.0, 1.6}};
+  room.boxes = {{{2.49, -0.5, -0.75}, {2.5, 0.5, 0.2}}};
+  for (const double z : {-1.15, -0.75, -0.35, 0.05, 0.45}) {
+    room.boxes.push_back({{2.2, -0.5, z}, {2.5, 0.5, z + 0.04}});
+  }
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
 // A pier over a cupboard, of which 0.6 m are in view, beside openings to what is behind.
