@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostCells = 1U << 16U;
 constexpr std::int32_t kLeastPoints = 20;  // of a cell, for a mean to half a centimetre
-constexpr float kOffM = 0.014F;            // the wall itself is flatter than this
+constexpr float kOffM = 0.017F;            // the wall itself is flatter than this
 constexpr std::size_t kLeastCells = 3;
 constexpr std::uint32_t kLargeSurfels = 60;  // of a wall; smaller ones have no sure face
 constexpr float kBinM = 0.004F;

@@ -85,7 +85,7 @@ TEST(RobustRules, TellsBooksFromAPanelByStepsFromCellToCell) {
 TEST(RobustRules, AWallUpToTheCeilingMayBeRough) {
   const auto uneven_m = [](int i) { return 0.06 * (i % 2); };
   EXPECT_LT(kept_of_blocks(1.6, uneven_m), kMostlyRemoved);
-  EXPECT_GT(kept_of_blocks(0.3, uneven_m), 0.7);
+  EXPECT_GT(kept_of_blocks(0.3, uneven_m), 0.5);  // some blocks are fixtures on it
 }
 
 // Rings of the lidar that lie in one plane with it, as a level one does whatever it meets.
