@@ -16,6 +16,10 @@ constexpr float kFarBehindM = 0.6F;  // nearer to the wall all is its own image
 constexpr float kAlong = 0.5F;       // |cos| of a surface's normal to the wall's
 constexpr float kSameM = 0.2F;
 constexpr float kSameNormal = 0.85F;
+constexpr float kPassedM = 0.1F;  // beside a place that a ray passes
+constexpr float kGoesOnM = 0.3F;
+constexpr std::size_t kMostAsked = 48;
+constexpr float kMostContradicted = 0.1F;  // of what has a counterpart
 constexpr std::uint32_t kLeastInformative = 6;
 constexpr float kLeastMatching = 0.4F;
 constexpr float kLeastFrame = 0.35F;
@@ -35,10 +39,19 @@ void for_each_around(const PlaneGrid& grid, std::uint32_t cell, std::int32_t rea
   }
 }
 
+[[nodiscard]] Vec3f image_of(const Plane& plane, const Vec3f& place) noexcept {
+  return place - 2.0F * plane.height_of(place) * plane.normal;
+}
+
+// A surface across the wall is its own image.
+[[nodiscard]] bool is_across(const Plane& plane, const Surfel& surfel) noexcept {
+  return surfel.shape == Shape::plane && std::abs(plane.normal.dot(surfel.direction)) < kAlong;
+}
+
 // Whether the surfel, reflected at the plane, lies on what is seen.
 [[nodiscard]] bool has_counterpart(const Model& model, const VoxelMap& map, const Plane& plane,
                                    const Surfel& surfel) noexcept {
-  const Vec3f image = surfel.mean - 2.0F * plane.height_of(surfel.mean) * plane.normal;
+  const Vec3f image = image_of(plane, surfel.mean);
   const Vec3f direction =
       surfel.direction - 2.0F * plane.normal.dot(surfel.direction) * plane.normal;
   return any_neighbour(map, key_of(place_of(image)), [&](std::size_t k, const Lattice&) {
@@ -46,6 +59,25 @@ void for_each_around(const PlaneGrid& grid, std::uint32_t cell, std::int32_t rea
     return other.supported && (other.mean - image).norm() < kSameM &&
            (other.shape != Shape::plane || std::abs(other.direction.dot(direction)) > kSameNormal);
   });
+}
+
+// Whether a ray passes the place and goes on.
+[[nodiscard]] bool is_seen_free(const Rays& rays, const Vec3f& place) noexcept {
+  const auto ray = [&](std::size_t i, std::size_t first) {
+    return Vec3f(rays.column(first)[i], rays.column(first + 1)[i], rays.column(first + 2)[i]);
+  };
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Vec3f origin = ray(i, 0);
+    const Vec3f way = ray(i, 3) - origin;
+    const Vec3f to_place = place - origin;
+    const float length_m = way.norm();
+    const float passed_m = to_place.dot(way) / length_m;
+    const float beside2 = to_place.squaredNorm() - passed_m * passed_m;
+    if (beside2 < kPassedM * kPassedM && passed_m > 0.0F && passed_m + kGoesOnM < length_m) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -70,7 +102,10 @@ bool Mirrors::find(Model& model, const PlaneGrids& grids, const VoxelMap& map) n
     for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
       if (starts_[cell] == starts_[cell + 1] || visited_[cell] != 0) continue;
       collect_hole(grid, cell);
-      if (!is_image(model, map, plane) || !is_framed(grids, grid)) continue;
+      if (!is_image(model, map, plane) || !is_framed(grids, grid) ||
+          is_contradicted(model, grids.rays(), map, plane)) {
+        continue;
+      }
       any = true;
       for (const std::uint32_t c : hole_) {
         for (std::uint32_t i = starts_[c]; i < starts_[c + 1]; ++i) {
@@ -161,6 +196,35 @@ bool Mirrors::is_image(const Model& model, const VoxelMap& map, const Plane& pla
     if (static_cast<float>(matching) > least) return true;
   }
   return false;
+}
+
+// What an image shows is where its counterpart is: not much of it in space that is seen to be free.
+bool Mirrors::is_contradicted(const Model& model, const Rays& rays, const VoxelMap& map,
+                              const Plane& plane) noexcept {
+  informative_.clear();
+  std::size_t matching = 0;
+  for (const std::uint32_t cell : hole_) {
+    for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
+      const Surfel& surfel = model.surfels[sights_[i].surfel];
+      if (plane.height_of(surfel.mean) > -kFarBehindM || is_across(plane, surfel)) continue;
+      if (has_counterpart(model, map, plane, surfel)) {
+        ++matching;
+      } else {
+        informative_.push_back(sights_[i].surfel);
+      }
+    }
+  }
+  const std::size_t step = informative_.size() / kMostAsked + 1;
+  std::size_t asked = 0;
+  std::size_t free = 0;
+  for (std::size_t i = 0; i < informative_.size(); i += step) {
+    ++asked;
+    free += is_seen_free(rays, image_of(plane, model.surfels[informative_[i]].mean)) ? 1U : 0U;
+  }
+  if (asked == 0) return false;
+  const float contradicting =
+      static_cast<float>(free * informative_.size()) / static_cast<float>(asked);
+  return contradicting > kMostContradicted * static_cast<float>(matching);
 }
 
 }  // namespace convexcut::robust

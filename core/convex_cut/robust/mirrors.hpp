@@ -30,6 +30,8 @@ class Mirrors {
   void collect_hole(const PlaneGrid& grid, std::uint32_t seed) noexcept;
   [[nodiscard]] bool is_framed(const PlaneGrids& grids, const PlaneGrid& grid) noexcept;
   [[nodiscard]] bool is_image(const Model& model, const VoxelMap& map, const Plane& plane) noexcept;
+  [[nodiscard]] bool is_contradicted(const Model& model, const Rays& rays, const VoxelMap& map,
+                                     const Plane& plane) noexcept;
 
   std::vector<Sight> sights_;  // by cell
   std::vector<Sight> unsorted_;

@@ -218,6 +218,18 @@ TEST(RobustRules, RemovesAMirrorImageThatIsPartlyOutOfView) {
   EXPECT_GT(kept.share_of(test::kWalls), 0.98);
 }
 
+// Its end is as far behind the hole as the room's is before it; but a cupboard stands in one of
+// them.
+TEST(RobustRules, KeepsARoomBehindAHoleThatIsAsLargeAsThisOne) {
+  BoxRoom room;
+  room.walls = {{-4.0, -9.0, -1.2}, {4.0, 3.0, 1.6}};
+  room.boxes = {{{-4.0, -3.1, -1.2}, {-1.0, -3.0, 1.6}},
+                {{1.0, -3.1, -1.2}, {4.0, -3.0, 1.6}},
+                {{-1.0, -3.1, -1.2}, {1.0, -3.0, -0.6}},
+                {{-1.6, -7.5, -1.2}, {-0.4, -7.1, 0.8}}};
+  EXPECT_GT(cut(room, {}).share_of(test::kWalls), 0.98);
+}
+
 // A third of its end is as far behind the hole as the room's end is before it.
 TEST(RobustRules, KeepsARoomBehindAHoleThatIsPartlyAsThisOne) {
   BoxRoom room;
