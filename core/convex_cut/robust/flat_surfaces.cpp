@@ -34,6 +34,10 @@ void for_each_within_reach(const PlaneGrid& grid, std::int32_t column, std::int3
   }
 }
 
+[[nodiscard]] Eigen::Array2f level_size_m(const Vec3f& low, const Vec3f& high) noexcept {
+  return (high - low).head<2>().array() + kCellM;
+}
+
 }  // namespace
 
 FlatSurfaces::FlatSurfaces() {
@@ -98,7 +102,7 @@ bool FlatSurfaces::is_above_floor(const Model& model, const Part& part,
       model.planes[floor.plane].height_of(lowest) < kTableM) {
     return false;
   }
-  const Eigen::Array2f size = (part.high - part.low).head<2>().array() + kCellM;
+  const Eigen::Array2f size = level_size_m(part.low, part.high);
   const Eigen::Array2f shared =
       (part.high.cwiseMin(floor.high) - part.low.cwiseMax(floor.low)).head<2>().array() +
       3 * kCellM;
@@ -136,22 +140,26 @@ void FlatSurfaces::reject_table_tops(const Model& model, const Vec3f& origin) no
   });
 }
 
-// The undersides of beams: long, all parts of one plane together, and close under the ceiling.
+// The undersides of beams: long, with the parts of the same plane in one line, and close under the
+// ceiling. Other beams may be as low.
 void FlatSurfaces::add_beams(const Model& model) noexcept {
   for (const Part& part : open_parts_) {
+    if (model.planes[part.plane].normal.z() > -kLevel ||
+        part.low.z() < model.ceiling_z - kBeamHeightM || part.high.z() > model.ceiling_z) {
+      continue;
+    }
     Vec3f low = part.low;
     Vec3f high = part.high;
     for (const Part& other : open_parts_) {
       if (other.plane != part.plane) continue;
-      low = low.cwiseMin(other.low);
-      high = high.cwiseMax(other.high);
+      const Vec3f wider_low = low.cwiseMin(other.low);
+      const Vec3f wider_high = high.cwiseMax(other.high);
+      if (level_size_m(wider_low, wider_high).minCoeff() > kMostBeamM) continue;
+      low = wider_low;
+      high = wider_high;
     }
-    const Eigen::Array2f size = (high - low).head<2>().array() + kCellM;
-    if (model.planes[part.plane].normal.z() < -kLevel && size.maxCoeff() > kLeastBeamM &&
-        size.minCoeff() < kMostBeamM && part.low.z() > model.ceiling_z - kBeamHeightM &&
-        part.high.z() < model.ceiling_z) {
-      parts_.push_back(part);
-    }
+    const Eigen::Array2f size_m = level_size_m(low, high);
+    if (size_m.maxCoeff() > kLeastBeamM && size_m.minCoeff() < kMostBeamM) parts_.push_back(part);
   }
 }
 

@@ -129,6 +129,13 @@ TEST(RobustRules, AMotionThatNoPlaneHoldsDiesOut) {
   EXPECT_LT(farthest, 8.0F * static_cast<float>(kStepM));
 }
 
+TEST(RobustRules, KeepsParallelBeamsOfTheSameHeight) {
+  BoxRoom room;
+  room.boxes = {{{0.85, -3.0, 1.2}, {1.15, 3.0, 1.6}}, {{-1.15, -3.0, 1.2}, {-0.85, 3.0, 1.6}}};
+  const Kept kept = cut(room, {.tilt_deg = 60.0}, 6);
+  for (const int beam : {0, 1}) EXPECT_GT(kept.share_of(beam), kKept) << beam;
+}
+
 // Their tops are out of view.
 TEST(RobustRules, RemovesABoardThatStandsFreeAndKeepsAWallAsThin) {
   EXPECT_LT(cut(test::with({{2.0, -0.6, -1.0}, {2.05, 0.9, 0.9}}), {}).share_of(0), kRemoved);
