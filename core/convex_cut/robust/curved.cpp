@@ -84,6 +84,7 @@ void Curved::grow(const Model& model, const VoxelMap& map) noexcept {
       reach(i);
     }
   }
+  // NOLINTNEXTLINE(modernize-loop-convert): the queue grows meanwhile.
   for (std::size_t next = 0; next < queue_.size(); ++next) {
     const std::uint32_t i = queue_[next];
     for_each_neighbour(map, map.voxels()[i].key, [&](std::size_t k, const Lattice&) {

@@ -15,6 +15,7 @@ constexpr std::size_t kLeastCells = 3;
 constexpr std::uint32_t kLargeSurfels = 60;  // of a wall; smaller ones have no sure face
 constexpr float kBinM = 0.004F;
 constexpr std::size_t kBins = 41;  // ±8 cm
+constexpr std::size_t kMiddleBin = kBins / 2;
 constexpr float kToFloorM = 0.4F;
 constexpr float kDoorHeightM = 1.5F;
 constexpr float kRoomHighM = 2.2F;  // a layer as high as that is a part of the wall
@@ -30,13 +31,13 @@ constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
       const Cell& cell = grids.cell(grid, column, row);
       if (!cell.structure || cell.points < kLeastPoints) continue;
       const auto bin = static_cast<std::ptrdiff_t>(std::lround(cell.mean_m() / kBinM)) +
-                       static_cast<std::ptrdiff_t>(kBins / 2);
+                       static_cast<std::ptrdiff_t>(kMiddleBin);
       if (bin > 0 && bin < static_cast<std::ptrdiff_t>(kBins) - 1) {
         ++cells.at(static_cast<std::size_t>(bin));
       }
     }
   }
-  std::size_t best = kBins / 2;
+  std::size_t best = kMiddleBin;
   std::int32_t most = 0;
   for (std::size_t bin = 1; bin + 1 < kBins; ++bin) {
     const std::int32_t around = cells.at(bin - 1) + 2 * cells.at(bin) + cells.at(bin + 1);
@@ -44,7 +45,7 @@ constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
     most = around;
     best = bin;
   }
-  return (static_cast<float>(best) - static_cast<float>(kBins / 2)) * kBinM;
+  return (static_cast<float>(best) - static_cast<float>(kMiddleBin)) * kBinM;
 }
 
 [[nodiscard]] bool is_off(const Cell& cell, float face_m) noexcept {
@@ -87,6 +88,7 @@ void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float fac
   };
   take(seed.column, seed.row);
   const float sign = grids.cell(grid, seed.column, seed.row).layer_m;
+  // NOLINTNEXTLINE(modernize-loop-convert): the layer grows meanwhile.
   for (std::size_t next = 0; next < layer_.size(); ++next) {
     const Place at = layer_[next];
     for (std::int32_t row = at.row - 1; row <= at.row + 1; ++row) {
