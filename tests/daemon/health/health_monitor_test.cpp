@@ -61,8 +61,8 @@ TEST(HealthMonitor, ARecordingPlayedSlowlyMayBeSilentForLonger) {
     // A packet a second and a result every two seconds, 20 times slower than a lidar's revolutions.
     HealthCounters totals;
     for (int i = 0; i < 60; ++i) {
-      reading.valid += i % 10 == 0 ? 1 : 0;
-      totals.results += i % 20 == 0 ? 1 : 0;
+      reading.valid += i % 10 == 0 ? 1U : 0U;
+      totals.results += i % 20 == 0 ? 1U : 0U;
       monitor.poll(start + i * milliseconds{100}, totals);
     }
     EXPECT_EQ(monitor.state(), pace == 1.0 ? DaemonState::faulty : DaemonState::ok) << pace;
