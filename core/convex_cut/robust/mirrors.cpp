@@ -43,9 +43,11 @@ void for_each_around(const PlaneGrid& grid, std::uint32_t cell, std::int32_t rea
   return place - 2.0F * plane.height_of(place) * plane.normal;
 }
 
-// A surface across the wall is its own image.
-[[nodiscard]] bool is_across(const Plane& plane, const Surfel& surfel) noexcept {
-  return surfel.shape == Shape::plane && std::abs(plane.normal.dot(surfel.direction)) < kAlong;
+// Whether it is far enough behind the wall to tell an image. A surface across the wall is its own.
+[[nodiscard]] bool is_informative(const Plane& plane, const Surfel& surfel) noexcept {
+  const bool is_across =
+      surfel.shape == Shape::plane && std::abs(plane.normal.dot(surfel.direction)) < kAlong;
+  return plane.height_of(surfel.mean) <= -kFarBehindM && !is_across;
 }
 
 // Whether the surfel, reflected at the plane, lies on what is seen.
@@ -88,6 +90,7 @@ Mirrors::Mirrors(std::size_t max_surfels) {
   starts_.reserve(kMostCells + 1);
   hole_.reserve(kMostCells);
   informative_.reserve(max_surfels);
+  unmatched_.reserve(max_surfels);
   visited_.reserve(kMostCells);
 }
 
@@ -180,8 +183,7 @@ bool Mirrors::is_image(const Model& model, const VoxelMap& map, const Plane& pla
   for (const std::uint32_t cell : hole_) {
     for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
       const Surfel& surfel = model.surfels[sights_[i].surfel];
-      if (surfel.shape == Shape::plane && plane.height_of(surfel.mean) <= -kFarBehindM &&
-          std::abs(plane.normal.dot(surfel.direction)) >= kAlong) {
+      if (surfel.shape == Shape::plane && is_informative(plane, surfel)) {
         informative_.push_back(sights_[i].surfel);
       }
     }
@@ -201,29 +203,29 @@ bool Mirrors::is_image(const Model& model, const VoxelMap& map, const Plane& pla
 // What an image shows is where its counterpart is: not much of it in space that is seen to be free.
 bool Mirrors::is_contradicted(const Model& model, const Rays& rays, const VoxelMap& map,
                               const Plane& plane) noexcept {
-  informative_.clear();
+  unmatched_.clear();
   std::size_t matching = 0;
   for (const std::uint32_t cell : hole_) {
     for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
       const Surfel& surfel = model.surfels[sights_[i].surfel];
-      if (plane.height_of(surfel.mean) > -kFarBehindM || is_across(plane, surfel)) continue;
+      if (!is_informative(plane, surfel)) continue;
       if (has_counterpart(model, map, plane, surfel)) {
         ++matching;
       } else {
-        informative_.push_back(sights_[i].surfel);
+        unmatched_.push_back(sights_[i].surfel);
       }
     }
   }
-  const std::size_t step = informative_.size() / kMostAsked + 1;
+  const std::size_t step = unmatched_.size() / kMostAsked + 1;
   std::size_t asked = 0;
   std::size_t free = 0;
-  for (std::size_t i = 0; i < informative_.size(); i += step) {
+  for (std::size_t i = 0; i < unmatched_.size(); i += step) {
     ++asked;
-    free += is_seen_free(rays, image_of(plane, model.surfels[informative_[i]].mean)) ? 1U : 0U;
+    free += is_seen_free(rays, image_of(plane, model.surfels[unmatched_[i]].mean)) ? 1U : 0U;
   }
   if (asked == 0) return false;
   const float contradicting =
-      static_cast<float>(free * informative_.size()) / static_cast<float>(asked);
+      static_cast<float>(free * unmatched_.size()) / static_cast<float>(asked);
   return contradicting > kMostContradicted * static_cast<float>(matching);
 }
 

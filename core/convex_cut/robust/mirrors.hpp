@@ -38,6 +38,7 @@ class Mirrors {
   std::vector<std::uint32_t> starts_;       // of each cell in sights_, and the end
   std::vector<std::uint32_t> hole_;         // cells; also the queue of the search for them
   std::vector<std::uint32_t> informative_;  // of a hole, the surfels that can tell an image
+  std::vector<std::uint32_t> unmatched_;    // of a hole, those that have no counterpart
   std::vector<std::uint8_t> visited_;       // by cell
 };
 
