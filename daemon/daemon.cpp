@@ -26,11 +26,12 @@ WorkerOptions worker_options(const config::Worker& settings) {
 
 // In the daemon a scan waits for its last orientations no longer than the latency allows: three
 // fifths of it remain for levelling, cutting and writing.
-PipelineOptions live_pipeline_options(const config::Config& config) {
-  PipelineOptions options = pipeline_options(config);
+PipelineOptions live_pipeline_options(const DaemonOptions& daemon) {
+  PipelineOptions options = pipeline_options(daemon.config);
+  options.positions = recorded_positions(daemon.recordings);
   options.orientation_wait =
       std::min(options.orientation_wait,
-               Duration{std::chrono::milliseconds{config.worker.latency_ms}} * 2 / 5);
+               Duration{std::chrono::milliseconds{daemon.config.worker.latency_ms}} * 2 / 5);
   // Memory is locked: what only dual returns need is not taken without them.
   if (!takes_dual_returns(options) && options.cut.mode == CutOptions::Mode::revolution) {
     options.max_returns_per_scan = kMostSingleReturnsPerScan;
@@ -85,14 +86,13 @@ constexpr auto kReportEvery = std::chrono::seconds{1};
 
 Daemon::Daemon(const DaemonOptions& options)
     : options_(options),
+      pipeline_options_(live_pipeline_options(options)),
       realtime_(realtime_settings(options)),
-      rings_(takes_dual_returns(pipeline_options(options.config))),
+      rings_(takes_dual_returns(pipeline_options_)),
       inputs_(make_inputs(options, rings_, stop_)),
       worker_(realtime_.as(ThreadRole::worker,
                            [&] {
-                             PipelineOptions pipeline = live_pipeline_options(options.config);
-                             pipeline.positions = recorded_positions(options.recordings);
-                             return Worker(pipeline, worker_options(options.config.worker),
+                             return Worker(pipeline_options_, worker_options(options.config.worker),
                                            inputs_->clock(), rings_.lidar, rings_.imu,
                                            rings_.encoder, results_);
                            })),
@@ -105,7 +105,7 @@ Daemon::Daemon(const DaemonOptions& options)
               lasting_problems(realtime_), [this] { return health_counters(); }) {
   worker_.report_to(worker_report_);
   if (options.recordings.lidar.empty()) rings_.returns.measure_into(stages_);
-  reserve_slots(results_, live_pipeline_options(options.config).max_returns_per_scan);
+  reserve_slots(results_, pipeline_options_.max_returns_per_scan);
 }
 
 Daemon::~Daemon() {

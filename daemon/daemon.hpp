@@ -63,7 +63,8 @@ class Daemon {
   [[nodiscard]] HealthCounters health_counters() const;
   [[nodiscard]] bool signalled() const noexcept { return stop_.load(std::memory_order_relaxed); }
 
-  DaemonOptions options_;
+  const DaemonOptions options_;
+  const PipelineOptions pipeline_options_;
   Realtime realtime_;  // before anything that starts threads
   ThreadRegister register_;
   InputRings rings_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/command_line/arguments.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -20,6 +21,19 @@ std::string full_name(const CLI::App& root) {
 int fail(const std::string& who, const std::string& what, int status) {
   std::fprintf(stderr, "%s: %s\n", who.c_str(), what.c_str());
   return status;
+}
+
+// An option whose value is empty, as an unset variable of a shell leaves it, would say "the file
+// without a name" or count as not given. Throws UsageError.
+void refuse_empty_values(const CLI::App& app) {
+  for (const CLI::Option* const option : app.get_options()) {
+    const auto& values = option->results();
+    if (std::find(values.begin(), values.end(), "") != values.end()) {
+      throw UsageError(option->get_name() + " is empty: expected " + option->get_type_name() +
+                       " (a variable that is not set?)");
+    }
+  }
+  for (const CLI::App* const command : app.get_subcommands()) refuse_empty_values(*command);
 }
 
 // The kernels of the whole program run with it from here on.
@@ -74,6 +88,7 @@ void RecordingArguments::add_poses_to(CLI::App& app) {
 int run_program(CLI::App& root, int argc, char** argv, const std::function<int()>& run) {
   try {
     root.parse(argc, argv);
+    refuse_empty_values(root);
     return run();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return root.exit(error);  // --help, --version

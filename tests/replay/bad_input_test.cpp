@@ -41,6 +41,12 @@ TEST_F(BadInput, MissingFile) {
   expect_failure(process_fixed(file), kFailed, {file, "No such file"});
 }
 
+TEST_F(BadInput, AnOptionWithAnEmptyValue) {
+  make_room({"--seconds", "0.1"});
+  expect_failure(process_fixed(""), kUsage, {"--lidar is empty", "expected FILE"});
+  expect_failure(process({"--lidar", lidar(), "--imu", ""}), kUsage, {"--imu is empty"});
+}
+
 TEST_F(BadInput, EmptyFile) {
   write(path("empty.pcap"), "");
   expect_failure(process_fixed(path("empty.pcap").string()), kFailed, {"empty.pcap", "empty"});
