@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/daemon/worker/simulated_time.hpp"
+#include "tests/support/effort.hpp"
 
 namespace convexcut::daemon {
 namespace {
@@ -54,8 +55,10 @@ class WorkerGridLocked : public ::testing::TestWithParam<double> {};
 TEST_P(WorkerGridLocked, GivesEveryRevolutionAtTheConstantLatency) {
   SimulatedWorker sim;
   sim.lidar.rate_hz = GetParam();
-  sim.run(seconds{60});
-  expect_about(sim.taken.size(), static_cast<std::size_t>(60 * GetParam()));
+  const std::uint64_t length_s = test::repetitions(60);
+  sim.run(seconds{length_s});
+  expect_about(sim.taken.size(),
+               static_cast<std::size_t>(static_cast<double>(length_s) * GetParam()));
   EXPECT_EQ(sim.counters.superseded_scans, 0U);
   EXPECT_LE(sim.counters.empty_results, 1U);
   for (std::size_t i = 2; i < sim.taken.size(); ++i) {
