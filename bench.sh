@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Measures Convex Cut beside Algorithm 1 with Qhull, CGAL and a monotone chain, in one run.
+# Measures Convex Cut beside Algorithm 1 with Qhull, CGAL and a monotone chain, and beside PCL's planes where
+# libpcl-dev is installed, in one run.
 #   ./bench.sh                       prints tables and writes docs/performance.md and its plots (about 10 minutes)
 #   ./bench.sh --quick --json FILE   only the clouds of the promised ratios, as JSON (under a minute)
 #   --simd PATH                      computes with that instruction set (convexcut info --cpu)
@@ -10,7 +11,7 @@ cd "$(dirname "$0")"
 quick=() json= simd=()
 while [ $# -gt 0 ]; do
   case "$1" in
-    -h | --help) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
     --quick) quick=(--quick) ;;
     --json) json=${2:?--json needs a file}; shift ;;
     --simd) simd=(--simd "${2:?--simd needs an instruction set}"); shift ;;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The engine beside the paper's Algorithm 1 with hulls of Qhull, CGAL and a monotone chain, and
-// beside one pass over the cloud's memory, on the same clouds in the same run; then the robust
-// method beside Algorithm 1 with Qhull. Prints one JSON object; bench.sh makes tables and plots.
+// The engine beside the paper's Algorithm 1 with hulls of Qhull, CGAL and a monotone chain, beside
+// PCL's planes where there is PCL, and beside one pass over the cloud's memory, on the same clouds
+// in the same run; then the robust method beside Algorithm 1 with Qhull. Prints one JSON object;
+// bench.sh makes tables and plots.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,6 +17,7 @@
 
 #include "bench/convex_cut/literal.hpp"
 #include "bench/convex_cut/measure.hpp"
+#include "bench/convex_cut/pcl_planes.hpp"
 #include "bench/convex_cut/robust_compare.hpp"
 #include "bench/convex_cut/room_cloud.hpp"
 #include "bench/program.hpp"
@@ -40,7 +42,7 @@ struct Case {
   double tilt_deg = 0.0;
   ConvexCutParameters parameters{};
   unsigned rounds = 5;
-  bool all_peers = true;  // CGAL and the chain too
+  bool all_peers = true;  // CGAL, the chain and PCL too
 };
 
 struct CaseResult {
@@ -80,6 +82,7 @@ struct CaseResult {
   if (tested.all_peers) {
     contenders.push_back({"cgal", literally(hull_by_cgal, other)});
     contenders.push_back({"chain", literally(hull_by_monotone_chain, other)});
+    if (const auto planes = pcl_planes(cloud.view())) contenders.push_back({"pcl", *planes});
   }
   CaseResult result{tested, points, measure(contenders, tested.rounds), 0.0};
   for (std::size_t i = 0; i < points; ++i) result.differing += labels[i] != literal[i] ? 1.0 : 0.0;

@@ -16,6 +16,17 @@ constexpr float kClearlyMore = 1.1F;
 [[nodiscard]] bool is_level(float cosine, float gate) noexcept { return cosine > std::cos(gate); }
 [[nodiscard]] bool is_upright(float cosine, float gate) noexcept { return cosine < std::sin(gate); }
 
+// The shortest rotation that takes `up` to z. They are at most 12° apart; Eigen's FromTwoVectors
+// provides for opposite ones too, by a decomposition that takes longer to compile than all else
+// here.
+[[nodiscard]] Mat3f make_upright(const Vec3f& up) noexcept {
+  const Vec3f from = up.normalized();
+  const Vec3f axis = from.cross(Vec3f::UnitZ());
+  const float twice_w = std::sqrt((1.0F + from.z()) * 2.0F);
+  const Vec3f v = axis / twice_w;
+  return Eigen::Quaternionf(0.5F * twice_w, v.x(), v.y(), v.z()).toRotationMatrix();
+}
+
 }  // namespace
 
 Mat3f upright_correction(const VoxelMap& revolution) noexcept {
@@ -47,7 +58,7 @@ Mat3f upright_correction(const VoxelMap& revolution) noexcept {
     if (better.z() > kMostTilt) up = better;
   }
   if (explained(up) <= kClearlyMore * explained(Vec3f::UnitZ())) return Mat3f::Identity();
-  return Eigen::Quaternionf::FromTwoVectors(up, Vec3f::UnitZ()).toRotationMatrix();
+  return make_upright(up);
 }
 
 }  // namespace convexcut::robust
