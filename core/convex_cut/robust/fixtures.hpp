@@ -26,7 +26,8 @@ class Fixtures {
   };
   void collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float face_m, Place seed) noexcept;
   [[nodiscard]] bool is_in_front(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept;
-  [[nodiscard]] bool is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept;
+  [[nodiscard]] bool is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid,
+                                    float face_m) const noexcept;
   [[nodiscard]] bool is_of_the_wall(const Model& model, const Plane& plane,
                                     const PlaneGrid& grid) const noexcept;
 

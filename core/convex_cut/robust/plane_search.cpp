@@ -27,6 +27,12 @@ constexpr float kVertical = 0.35F;
 constexpr double kLine2 = 0.02;
 constexpr float kMostWeight = 20.0F;
 constexpr float kRefineReachM = 0.3F;
+constexpr std::array<float, 4> kGatesM{0.10F, 0.07F, 0.05F, 0.04F};  // of the fit, one by one
+// Of a wall, against the floor: less is the noise of its fit, and more the wall's own, which would
+// be off by more than 2 cm at floor and ceiling.
+constexpr float kLeastLean = 0.008F;
+constexpr float kMostLean = 0.015F;
+constexpr std::uint32_t kLargeSurfels = 150;  // of a wall; smaller ones may be anything
 
 [[nodiscard]] std::optional<Plane> plane_through(const Surfel& surfel) noexcept {
   Vec3f n = surfel.direction;
@@ -80,6 +86,22 @@ struct WeightedSums {
   return sums;
 }
 
+// Of its surfels within the last gate, by weight.
+[[nodiscard]] Vec3f mean_near(const Model& model, std::size_t plane) noexcept {
+  float weights = 0.0F;
+  Vec3f sum = Vec3f::Zero();
+  for (const Surfel& surfel : model.surfels) {
+    if (surfel.plane != static_cast<std::int32_t>(plane) ||
+        std::abs(model.planes[plane].height_of(surfel.mean)) > kGatesM.back()) {
+      continue;
+    }
+    const float weight = std::min(static_cast<float>(surfel.points), kMostWeight);
+    weights += weight;
+    sum += weight * surfel.mean;
+  }
+  return sum / std::max(weights, 1.0F);
+}
+
 }  // namespace
 
 PlaneSearch::PlaneSearch(std::size_t max_surfels)
@@ -112,6 +134,30 @@ void PlaneSearch::run(Model& model, const Vec3f& origin) noexcept {
     }
     plane.vertical = std::abs(plane.normal.z()) < kVertical;
     claim(model, plane);
+  }
+  square_walls(model);
+}
+
+// Large walls that lean a little against the floor were fitted through what hangs before or behind
+// them: by what lies near them, but upright.
+void PlaneSearch::square_walls(Model& model) noexcept {
+  const Plane* floor = nullptr;
+  for (const Plane& plane : model.planes) {
+    if (plane.normal.z() < kNearlyHorizontal) continue;
+    if (floor == nullptr || plane.surfels > floor->surfels) floor = &plane;
+  }
+  if (floor == nullptr) return;
+  const Vec3f up = floor->normal;
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    Plane& plane = model.planes[k];
+    const float lean = plane.normal.dot(up);
+    if (!plane.vertical || plane.surfels < kLargeSurfels || std::abs(lean) < kLeastLean ||
+        std::abs(lean) > kMostLean) {
+      continue;
+    }
+    const Vec3f mean = mean_near(model, k);
+    plane.normal = (plane.normal - lean * up).normalized();
+    plane.offset = -plane.normal.dot(mean);
   }
 }
 
@@ -172,7 +218,7 @@ Plane PlaneSearch::best_trial(const Model& model) noexcept {
 std::uint32_t PlaneSearch::refine(Plane& plane) noexcept {
   copy_near(left_, plane, kRefineReachM, near_);
   std::uint32_t count = 0;
-  for (const float gate_m : {0.10F, 0.07F, 0.05F, 0.04F}) {
+  for (const float gate_m : kGatesM) {
     mark_agreeing(near_, plane, gate_m, agree_);
     const WeightedSums sums = sums_of(near_, agree_);
     if (sums.count < kLeastSurfels) return 0;

@@ -33,6 +33,7 @@ class PlaneSearch {
   [[nodiscard]] Plane best_trial(const Model& model) noexcept;
   [[nodiscard]] std::uint32_t refine(Plane& plane) noexcept;
   void claim(Model& model, const Plane& plane) noexcept;
+  static void square_walls(Model& model) noexcept;
   [[nodiscard]] std::size_t random_left() noexcept;
 
   SurfelColumns left_;     // surfels without a plane

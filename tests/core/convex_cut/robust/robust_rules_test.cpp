@@ -173,6 +173,18 @@ TEST(RobustRules, RemovesTheWallThatIsSeenBetweenShelves) {
   EXPECT_LT(cut(room, {}).share_of(0), kMostlyRemoved);
 }
 
+// 3 cm behind the wall and with the tops out of view: one hangs over a pane, one closes its window.
+TEST(RobustRules, RemovesBlindsAndKeepsTheWallBetweenThem) {
+  BoxRoom room;
+  room.walls = {{-3.0, -3.0, -1.2}, {3.25, 3.0, 1.6}};
+  room.boxes = {{{3.03, -2.0, 0.0}, {3.05, -0.5, 1.6}}, {{3.03, 0.5, -0.4}, {3.05, 2.0, 1.6}},
+                {{3.0, -3.0, -1.2}, {3.25, 3.0, -0.4}}, {{3.0, -3.0, -0.4}, {3.25, -2.0, 1.6}},
+                {{3.0, -0.5, -0.4}, {3.25, 0.5, 1.6}},  {{3.0, 2.0, -0.4}, {3.25, 3.0, 1.6}}};
+  const Kept kept = cut(room, {}, 4);
+  for (const int blind : {0, 1}) EXPECT_LT(kept.share_of(blind), kMostlyRemoved) << blind;
+  for (const int wall : {2, 3, 4, 5}) EXPECT_GT(kept.share_of(wall), 0.8) << wall;
+}
+
 // Farther apart than two cells, where not every cell of the back was taken for the wall.
 TEST(RobustRules, RemovesTheBackBetweenShelvesThatAreFarApart) {
   BoxRoom room;
