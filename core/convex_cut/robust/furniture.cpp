@@ -26,6 +26,7 @@ constexpr float kSameTopM = 0.6F;
 constexpr float kRounder = 1.7F;   // spread², relative to the noise²
 constexpr float kHangingM = 1.6F;  // over the floor
 constexpr float kLeastBeamM = 1.6F;
+constexpr float kTallestLampM = 1.0F;
 constexpr int kPasses = 2;  // fronts before fronts
 
 struct PlaneExtent {
@@ -163,9 +164,9 @@ void reject_furniture(Model& model) noexcept {
     }
   }
   for (WallSegment& s : model.segments) {
-    // Short things that hang are lamps.
+    // Short things that hang are lamps; what is taller stands, and its foot is hidden.
     if (s.accepted && s.bottom_m > model.floor_z + kHangingM && !std::isinf(model.floor_z) &&
-        s.width_m() < kLeastBeamM) {
+        s.width_m() < kLeastBeamM && s.top_m - s.bottom_m < kTallestLampM) {
       s.accepted = false;
     }
     if (!s.accepted || !s.narrow || is_on_wider(model, s)) continue;

@@ -136,6 +136,17 @@ TEST(RobustRules, KeepsParallelBeamsOfTheSameHeight) {
   for (const int beam : {0, 1}) EXPECT_GT(kept.share_of(beam), kKept) << beam;
 }
 
+TEST(RobustRules, KeepsAPillarWhoseFootIsHiddenAndRemovesALamp) {
+  BoxRoom room;
+  room.walls = {{-4.0, -3.0, -1.2}, {4.0, 3.0, 3.0}};
+  room.boxes = {{{-3.2, -0.3, -1.2}, {-2.6, 0.3, 3.0}},
+                {{-2.2, -1.0, -1.2}, {-1.6, 1.0, 0.45}},
+                {{-3.0, 0.8, 1.0}, {-2.5, 1.3, 1.6}}};
+  const Kept kept = cut(room, {.tilt_deg = 30.0}, 6);
+  EXPECT_GT(kept.share_of(0), 0.8);
+  EXPECT_LT(kept.share_of(2), kRemoved);
+}
+
 // Their tops are out of view.
 TEST(RobustRules, RemovesABoardThatStandsFreeAndKeepsAWallAsThin) {
   EXPECT_LT(cut(test::with({{2.0, -0.6, -1.0}, {2.05, 0.9, 0.9}}), {}).share_of(0), kRemoved);
