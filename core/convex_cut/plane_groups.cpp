@@ -2,6 +2,7 @@
 #include "core/convex_cut/plane_groups.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace convexcut {
 
@@ -31,6 +32,7 @@ PlaneGroups::PlaneGroups(std::uint32_t planes)
       }
     }
   }
+  for (Reach& reach : reach_) reach.is_far = std::popcount(reach.any) <= kMostGroupsOfFar;
 }
 
 std::uint32_t PlaneGroups::begin(std::uint32_t group) const noexcept {

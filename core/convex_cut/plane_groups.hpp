@@ -24,7 +24,11 @@ class PlaneGroups {
     std::uint32_t behind = 0;  // on the other side
     // Either side, or too near the axis to be on one.
     std::uint32_t any = 0;
+    // Not near the axis: `any` are few. Where a tilted rig sees the floor below itself, points near
+    // the axis come all the time.
+    bool is_far = false;
   };
+  static constexpr int kMostGroupsOfFar = 3;
 
   explicit PlaneGroups(std::uint32_t planes);
 

@@ -182,14 +182,13 @@ std::size_t find_shallow(const PolygonEdges edges, const EdgeColumns facing,
 }
 
 std::size_t mark_near(const PolygonEdges edges, const EdgeColumns facing,
-                      const SliceColumns members, std::span<const Stretch> stretches, float e_m,
-                      float tolerance_m, std::span<std::uint8_t> marks, std::uint32_t* near,
-                      std::uint32_t* doubtful) {
+                      const SliceColumns members, std::span<const Stretch> stretches,
+                      float surely_m, float limit_m, std::span<std::uint8_t> marks,
+                      std::uint32_t* near, std::uint32_t* doubtful) {
   const Floats df;
   const Words dw;
   const std::size_t lanes = hn::Lanes(df);
-  const float limit_m = e_m + tolerance_m;
-  const Float surely = hn::Set(df, e_m - tolerance_m);
+  const Float surely = hn::Set(df, surely_m);
   const Float possibly = hn::Set(df, limit_m);
   const Word marked = hn::Set(dw, kMarked);
   std::size_t near_count = 0;
@@ -308,11 +307,11 @@ void farthest_outside(const EdgeColumns& edges, const SliceColumns& members, std
 }
 
 std::size_t mark_near(const PolygonEdges& edges, const EdgeColumns& facing,
-                      const SliceColumns& members, std::span<const Stretch> stretches, float e_m,
-                      float tolerance_m, std::span<std::uint8_t> marks, std::uint32_t* near,
-                      std::uint32_t* doubtful) noexcept {
-  return HWY_DYNAMIC_DISPATCH(mark_near)(edges, facing, members, stretches, e_m, tolerance_m, marks,
-                                         near, doubtful);
+                      const SliceColumns& members, std::span<const Stretch> stretches,
+                      float surely_m, float limit_m, std::span<std::uint8_t> marks,
+                      std::uint32_t* near, std::uint32_t* doubtful) noexcept {
+  return HWY_DYNAMIC_DISPATCH(mark_near)(edges, facing, members, stretches, surely_m, limit_m,
+                                         marks, near, doubtful);
 }
 
 }  // namespace convexcut

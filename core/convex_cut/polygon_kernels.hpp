@@ -59,12 +59,12 @@ struct Turns {
                                        std::span<const Stretch> stretches, float limit_m,
                                        const SliceColumns& shallow) noexcept;
 
-// Sets marks[position] for the members that are not marked and less than e − tolerance deep, writes
-// the positions of those within the tolerance of e to `doubtful`, and returns how many these are.
-// `near`: room for as many positions as there are members.
+// Sets marks[position] for the members that are not marked and less than surely_m deep, writes the
+// positions of the others that are at most limit_m deep to `doubtful`, and returns how many these
+// are. `near`: room for as many positions as there are members.
 [[nodiscard]] std::size_t mark_near(const PolygonEdges& edges, const EdgeColumns& facing,
                                     const SliceColumns& members, std::span<const Stretch> stretches,
-                                    float e_m, float tolerance_m, std::span<std::uint8_t> marks,
+                                    float surely_m, float limit_m, std::span<std::uint8_t> marks,
                                     std::uint32_t* near, std::uint32_t* doubtful) noexcept;
 
 // The kernels below take all edges and all members.

@@ -8,32 +8,17 @@
 #include <span>
 #include <utility>
 
+#include "core/convex_cut/near_boundary.hpp"
 #include "core/convex_cut/orientation.hpp"
 
 namespace convexcut {
 namespace {
-
-// Bound of the error of a depth estimate, as a part of the cloud's extent X. With |u| ≤ √2·X and
-// unit normals, its roundings sum up to less than 1.2e-6·X (design note, section "Tolerance").
-constexpr float kDepthErrorPerExtent = 2e-6F;
 
 // With more candidates or more rounds of widening, the exact hull of the candidates is quicker. The
 // first round leaves few of any number, where it can number them.
 constexpr std::size_t kMostCandidates = 1024;
 constexpr std::size_t kMostCandidatesAtFirst = std::size_t{1} << 16U;
 constexpr int kMostRounds = 6;
-
-// The reference's decision: any edge of the hull within the distance.
-[[nodiscard]] bool near_boundary(const SlicePoint& point, const Polygon& hull,
-                                 double distance_m) noexcept {
-  SlicePoint from{hull.u[hull.size - 1], hull.z[hull.size - 1]};
-  for (std::size_t k = 0; k < hull.size; ++k) {
-    const SlicePoint to{hull.u[k], hull.z[k]};
-    if (squared_distance(point, from, to) <= distance_m * distance_m) return true;
-    from = to;
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -73,13 +58,23 @@ void SliceWorker::begin(const ShellIndex& index, float extent_m) noexcept {
 }
 
 void SliceWorker::process(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept {
+  process_to(0.0F, plane, windows);
+  for (const std::uint32_t position : undecided_) {
+    if (near_boundary(exact_point(plane, position), hull_, hull_distance_m_)) marks_[position] = 1;
+  }
+}
+
+void SliceWorker::process_to(float margin_m, const SlicingPlane& plane,
+                             const ShellIndex::Windows& windows) noexcept {
+  undecided_ = {};
+  hull_ = {};
   cut(plane, windows);
   if (count_ == 0) return;
-  const Polygon hull = hull_of_members(plane);
-  if (hull.size < 3) {
+  hull_ = hull_of_members(plane);
+  if (hull_.size < 3) {
     keep_all_members();
   } else {
-    keep(plane, hull);
+    keep(margin_m);
   }
 }
 
@@ -198,15 +193,13 @@ void SliceWorker::keep_all_members() noexcept {
 }
 
 // Of the hull, edges_ are the edges.
-void SliceWorker::keep(const SlicingPlane& plane, const Polygon& hull) noexcept {
-  std::uint32_t* const doubtful = shallow_position_.data();  // the hull is done with
-  const std::size_t doubtful_count =
-      mark_near(edges_, facing_, members(), stretches_, static_cast<float>(hull_distance_m_),
-                tolerance_m_, marks_.span(), near_.data(), doubtful);
-  for (std::size_t i = 0; i < doubtful_count; ++i) {
-    const std::uint32_t position = doubtful[i];
-    if (near_boundary(exact_point(plane, position), hull, hull_distance_m_)) marks_[position] = 1;
-  }
+void SliceWorker::keep(float margin_m) noexcept {
+  std::uint32_t* const undecided = shallow_position_.data();  // the hull is done with
+  const auto e_m = static_cast<float>(hull_distance_m_);
+  const std::size_t count =
+      mark_near(edges_, facing_, members(), stretches_, e_m - margin_m - tolerance_m_,
+                e_m + tolerance_m_, marks_.span(), near_.data(), undecided);
+  undecided_ = {undecided, count};
 }
 
 }  // namespace convexcut

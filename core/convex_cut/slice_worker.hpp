@@ -28,6 +28,10 @@
 
 namespace convexcut {
 
+// Bound of the error of a depth estimate, as a part of the cloud's extent X. With |u| ≤ √2·X and
+// unit normals, its roundings sum up to less than 1.2e-6·X (design note, section "Tolerance").
+inline constexpr float kDepthErrorPerExtent = 2e-6F;
+
 class SliceWorker {
  public:
   // Allocates 110 bytes a point: a slice can hold the whole cloud, and all of it be hull.
@@ -44,6 +48,16 @@ class SliceWorker {
   // call.
   void process(const SlicingPlane& plane, const ShellIndex::Windows& windows) noexcept;
 
+  // The same, but the members that are between e − margin_m and e from the hull's boundary are left
+  // undecided, as far as no slice has made them structure. See KeptSlices.
+  void process_to(float margin_m, const SlicingPlane& plane,
+                  const ShellIndex::Windows& windows) noexcept;
+  // Until the next slice: positions in the index, and the hull; no corners where it has fewer than
+  // three vertices.
+  [[nodiscard]] std::span<const std::uint32_t> undecided() const noexcept { return undecided_; }
+  [[nodiscard]] Polygon hull() const noexcept { return hull_.size < 3 ? Polygon{} : hull_; }
+  [[nodiscard]] float tolerance_m() const noexcept { return tolerance_m_; }
+
   // By position in the index: 1 where a slice since begin() made the point structure.
   [[nodiscard]] std::span<std::uint8_t> marks() noexcept { return marks_.span(); }
 
@@ -54,7 +68,7 @@ class SliceWorker {
   void start_with_any_triangle(const SlicingPlane& plane) noexcept;
   [[nodiscard]] bool widen_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept;
   [[nodiscard]] Polygon exact_hull(const SlicingPlane& plane, std::size_t count) noexcept;
-  void keep(const SlicingPlane& plane, const Polygon& hull) noexcept;
+  void keep(float margin_m) noexcept;
   void keep_all_members() noexcept;
   [[nodiscard]] SlicePoint exact_point(const SlicingPlane& plane,
                                        std::uint32_t position) const noexcept;
@@ -76,6 +90,8 @@ class SliceWorker {
   Column<std::uint32_t> position_;
   std::array<Stretch, ShellIndex::kMostRanges> stretch_storage_{};
   std::span<Stretch> stretches_;
+  Polygon hull_;
+  std::span<const std::uint32_t> undecided_;
   Column<std::uint32_t> near_;  // positions of members that the slice makes structure
   // Members that may be vertices of the hull.
   Column<float> shallow_u_, shallow_z_;

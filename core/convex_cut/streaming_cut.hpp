@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/cloud.hpp"
+#include "core/convex_cut/kept_slices.hpp"
 #include "core/convex_cut/parameters.hpp"
 #include "core/convex_cut/plane_groups.hpp"
 #include "core/convex_cut/shell_index.hpp"
@@ -20,16 +21,17 @@
 namespace convexcut {
 
 // A group of neighbouring slices is done when both of its sides have points and none has come for a
-// while. Nothing is assumed about where later points may lie: should one come that a done slice may
-// contain, its group is done again, at the latest in finish(). So a cloud in any order, or a rig
-// that is tilted so far that its beams reach every direction at any time, takes longer but gets the
-// same labels. See docs/design/convex_cut.md.
+// while, but near the axis. Nothing is assumed about where later points may lie: one that comes
+// into a done slice is compared with its hull, and when the hull grows too far by it, the slice's
+// group is done again, at the latest in finish(). So a cloud in any order, or a rig that is tilted
+// so far that its beams reach every direction at any time, takes longer but gets the same labels.
+// See docs/design/convex_cut.md.
 //
 // One thread. RT after construction: no allocation, no lock, no system call.
 class StreamingCut {
  public:
-  // Allocates about 260 bytes a point, of which a revolution touches about half. Throws
-  // std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹, and
+  // Allocates about 265 bytes a point, of which a revolution touches about half, and 5 kB a plane.
+  // Throws std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹, and
   // std::bad_alloc.
   StreamingCut(const ConvexCutParameters& parameters, std::size_t max_points);
 
@@ -61,12 +63,22 @@ class StreamingCut {
     Workspace<std::uint8_t> marks;    // of the points [0, done): the group made it structure
     std::uint32_t count = 0;
     std::uint32_t done = 0;  // as many points as it was done with; 0: not yet
-    std::size_t newest = 0;  // its last point, in the cloud
+    std::uint32_t near_axis = 0;
+    bool is_kept = false;    // its slices are, for late members
+    std::size_t newest = 0;  // its last point that is not near the axis, in the cloud
   };
 
-  void take(std::size_t end) noexcept;
-  void finish_group(const CloudView& cloud, std::uint32_t number) noexcept;
-  void finish_all(const CloudView& cloud, std::span<Label> labels) noexcept;
+  [[nodiscard]] CutStatus take(const CloudView& cloud) noexcept;
+  void group_points(std::size_t end) noexcept;
+  void do_swept(const CloudView& cloud) noexcept;
+  [[nodiscard]] bool take_late(const CloudView& cloud, std::uint32_t number) noexcept;
+  void do_group(const CloudView& cloud, std::uint32_t number) noexcept;
+  void do_slices(std::uint32_t number, bool keep) noexcept;
+  void number_undecided(std::uint32_t number) noexcept;
+  void take_back(std::uint32_t number) noexcept;
+  void load_points(const CloudView& cloud, std::span<const std::uint32_t> points) noexcept;
+  void do_rest(const CloudView& cloud, std::uint32_t left) noexcept;
+  void decide(const CloudView& cloud, std::uint32_t number) noexcept;
 
   float inverse_squared_half_width_;
   std::size_t max_points_;
@@ -74,15 +86,19 @@ class StreamingCut {
   ShellIndex index_;
   SliceWorker worker_;
   std::vector<Group> groups_;
+  KeptSlices kept_;
 
   CutStatus status_ = CutStatus::ok;  // of the cloud so far
   std::size_t size_ = 0;
+  float extent_m_ = 0.0F;    // the greatest magnitude of a coordinate
   std::uint32_t ahead_ = 0;  // groups that have points on this side
   std::uint32_t behind_ = 0;
   Done done_;
-  Workspace<std::uint16_t> keys_;   // of ShellIndex
-  Workspace<std::uint8_t> counts_;  // of each point: groups that made it structure
-  Workspace<float> x_, y_, z_;      // the points of one group
+  Workspace<std::uint16_t> keys_;     // of ShellIndex
+  Workspace<std::uint8_t> counts_;    // of each point: groups that made it structure
+  Workspace<std::uint32_t> rest_;     // points of the groups that are left at the end
+  Workspace<std::uint8_t> is_taken_;  // of each point: it is among them
+  Workspace<float> x_, y_, z_;        // of the points at hand
 };
 
 }  // namespace convexcut

@@ -244,7 +244,7 @@ TEST_P(MarkNear, MarksWhatIsSurelyNearAndTellsWhatIsDoubtful) {
       std::vector<std::uint32_t> near(count + kKernelPadding);
       std::vector<std::uint32_t> doubtful(count + kKernelPadding);
       const std::size_t doubtful_count =
-          mark_near(tested.edges, tested.facing, columns.view(), stretches, 0.3F, 0.1F, marks,
+          mark_near(tested.edges, tested.facing, columns.view(), stretches, 0.2F, 0.4F, marks,
                     near.data(), doubtful.data());
       std::size_t next = 0;
       for (std::size_t k = 0; k < count; ++k) {

@@ -115,6 +115,37 @@ TEST(StreamingCut, MostSlicesAreDoneBeforeTheLastFiring) {
   EXPECT_LE(cut.done().again, 30U);
 }
 
+// A tilted rig sees the floor below itself at the end of a revolution as at its beginning: members
+// of all slices that come late.
+TEST(StreamingCut, PointsNearTheAxisThatComeLateLeaveMostSlicesDone) {
+  test::Random random(8);
+  const test::Cloud revolution = swept_room(60.0, 1'000, random);
+  double lowest = 0.0;  // of those that are in every slice
+  for (std::size_t i = 0; i < revolution.size(); ++i) {
+    if (std::hypot(revolution.x[i], revolution.y[i]) > 0.05F) continue;
+    lowest = std::min(lowest, static_cast<double>(revolution.z[i]));
+  }
+  ASSERT_LT(lowest, -1.0);
+  StreamingCut cut({}, revolution.size() + 4);
+  // Within the hull, a little outside, and so far that what the slices made structure is not.
+  for (const double below_m : {-0.04, 0.005, 0.05}) {
+    test::Cloud cloud = revolution;
+    add_in_pieces(cut, cloud, random, 384);
+    const std::uint32_t before = cut.done().slices;
+    ASSERT_GT(before, 180U);
+    for (const double x : {-0.01, 0.0, 0.01}) {
+      cloud.add(x, 0.005, lowest - below_m);
+    }
+    std::vector<Label> expected(cloud.size());
+    ASSERT_EQ(reference::label({}, cloud.view(), expected), CutStatus::ok);
+    std::vector<Label> labels(cloud.size());
+    ASSERT_EQ(cut.finish(cloud.view(), labels), CutStatus::ok);
+    EXPECT_TRUE(labels == expected) << below_m;
+    const std::uint32_t after = cut.done().slices - before;
+    EXPECT_EQ(after < 180U, below_m < 0.02) << below_m << ": " << after << " of " << before;
+  }
+}
+
 // The second point on top of a wall moves its hull up: what was structure by the first is not.
 TEST(StreamingCut, APointThatComesIntoADoneSliceTakesLabelsBack) {
   test::Random random(7);
