@@ -42,12 +42,12 @@ class KeptSlices {
   // A slice has been done: its hull (none, where it has fewer than three vertices) and the members
   // that the margin leaves undecided, as any numbers. False when there is no room for them: then
   // nothing is kept, and the first late member will ask for the slice to be done again.
-  [[nodiscard]] bool keep(std::uint32_t slice, const Polygon& hull,
+  [[nodiscard]] bool keep(std::uint32_t number, const Polygon& hull,
                           std::span<const std::uint32_t> undecided, float tolerance_m) noexcept;
   // Before the calls below: point_of(number) in the cloud, of the numbers given to keep(), or
   // kNobody where no decision is needed any more.
   template <class PointOf>
-  void number(std::uint32_t number, PointOf&& point_of) noexcept {
+  void renumber(std::uint32_t number, PointOf&& point_of) noexcept {
     Slice& slice = slices_[number];
     std::size_t left = 0;
     for (const std::uint32_t known : std::span(slice.undecided).first(slice.undecided_count)) {
@@ -65,12 +65,12 @@ class KeptSlices {
     CloudView columns;
     std::span<std::uint8_t> marks;
   };
-  [[nodiscard]] bool add(std::uint32_t slice, const SlicingPlane& plane, const Late& late,
+  [[nodiscard]] bool add(std::uint32_t number, const SlicingPlane& plane, const Late& late,
                          float extent_m) noexcept;
 
   // When no more points come: counts, of each point of the cloud, becomes 1 for those of the
   // undecided that are structure, as far as it is 0.
-  void decide(std::uint32_t slice, const SlicingPlane& plane, const CloudView& cloud,
+  void decide(std::uint32_t number, const SlicingPlane& plane, const CloudView& cloud,
               float extent_m, std::span<std::uint8_t> counts) noexcept;
 
  private:

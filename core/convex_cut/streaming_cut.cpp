@@ -204,7 +204,7 @@ void StreamingCut::number_undecided(std::uint32_t number) noexcept {
   const Group& group = groups_[number];
   const std::span<const std::uint8_t> marks = worker_.marks();
   for (std::uint32_t plane = planes_.begin(number); plane < planes_.end(number); ++plane) {
-    kept_.number(plane, [&](std::uint32_t position) {
+    kept_.renumber(plane, [&](std::uint32_t position) {
       return marks[position] != 0 ? kNobody : group.points[index_.source(position)];
     });
   }
