@@ -10,6 +10,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "core/convex_cut/robust/shape_kernels.hpp"
 #include "core/geometry.hpp"
 
 namespace convexcut::robust {
@@ -65,6 +66,18 @@ class Spread {
                      rows_last(shift), columns_last(shift));
   }
   [[nodiscard]] float count() const noexcept { return sums_[3]; }
+  void store(SpreadColumns& to, std::size_t i) const noexcept {
+    to.x[i] = sums_[0];
+    to.y[i] = sums_[1];
+    to.z[i] = sums_[2];
+    to.count[i] = sums_[3];
+    to.xx[i] = first_[0];
+    to.xy[i] = first_[1];
+    to.xz[i] = first_[2];
+    to.yy[i] = first_[3];
+    to.yz[i] = last_[2];
+    to.zz[i] = last_[3];
+  }
   // m²; count() > 0.
   [[nodiscard]] Mat3f covariance() const noexcept {
     const Vec3f mean = Vec3f(sums_[0], sums_[1], sums_[2]) / count();

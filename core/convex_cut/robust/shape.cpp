@@ -1,47 +1,94 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/convex_cut/robust/shape.hpp"
 
-#include <algorithm>
+#include <array>
 
 namespace convexcut::robust {
 namespace {
 
-constexpr float kFewPoints = 6.0F;
 // A voxel alone has a normal only when a surface fills it.
 constexpr std::int32_t kManyPoints = 12;
-// The square of what a surface and the sensor's noise on it may be thick, root mean square.
-constexpr float kThickness2 = 0.035F * 0.035F;
-constexpr float kLeastNoise2 = 2e-4F;
+
+// The occupied voxels around one, in their order.
+struct Neighbours {
+  std::array<std::uint32_t, Neighbourhood::kSize> index;
+  std::array<std::uint8_t, Neighbourhood::kSize> step;  // from the corner on
+  std::size_t count = 0;
+};
+
+// Looks all of them up before any is used, so that they come into the cache together.
+void collect(const VoxelMap& map, VoxelKey key, Neighbours& found) noexcept {
+  const Neighbourhood around(map, key);
+  std::uint8_t step = 0;
+  std::size_t count = 0;
+  for (std::uint32_t x = 0; x < 3; ++x) {
+    for (std::uint32_t y = 0; y < 3; ++y) {
+      for (std::uint32_t z = 0; z < 3; ++z, ++step) {
+        const std::int32_t index = around.at(x, y, z);
+        found.index[count] = static_cast<std::uint32_t>(index);
+        found.step[count] = step;
+        count += index != VoxelMap::kNone ? 1U : 0U;
+      }
+    }
+  }
+  found.count = count;
+  for (std::size_t k = 0; k < count; ++k) {
+    __builtin_prefetch(&map.voxels()[found.index[k]].moments);
+  }
+}
+
+[[nodiscard]] Spread spread_of(const VoxelMap& map, const Neighbours& neighbours) noexcept {
+  const auto offset_m = [](int step) { return static_cast<float>(step - 1) * kVoxelM; };
+  Spread around;
+  for (std::size_t k = 0; k < neighbours.count; ++k) {
+    const int step = neighbours.step[k];
+    around.add(map.voxels()[neighbours.index[k]].moments,
+               Vec3f(offset_m(step / 9), offset_m(step / 3 % 3), offset_m(step % 3)));
+  }
+  return around;
+}
+
+void set_shape(Voxel& voxel, const ShapeColumns& shapes, std::size_t i) noexcept {
+  voxel.shape = shapes.is_plane[i] != 0  ? Shape::plane
+                : shapes.is_line[i] != 0 ? Shape::line
+                                         : Shape::other;
+  if (voxel.shape == Shape::other) {
+    voxel.direction = Vec3f::Zero();
+  } else {
+    voxel.direction = Vec3f(shapes.x[i], shapes.y[i], shapes.z[i]);
+  }
+}
 
 }  // namespace
 
-LocalShape local_shape(const Spread& spread) noexcept {
-  if (spread.count() < kFewPoints) return {};
-  Eigen::SelfAdjointEigenSolver<Mat3f> axes;
-  axes.computeDirect(spread.covariance());
-  const Vec3f& extent2 = axes.eigenvalues();  // increasing
-  if (extent2[0] < kThickness2 && extent2[1] > 4.0F * std::max(extent2[0], kLeastNoise2)) {
-    return {Shape::plane, axes.eigenvectors().col(0)};
+void take_shapes(VoxelMap& map, std::span<const std::uint32_t> voxels) noexcept {
+  std::array<Neighbours, kShapesAtOnce> neighbours;
+  SpreadColumns spreads;
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    collect(map, map.voxels()[voxels[i]].key, neighbours[i]);
   }
-  if (extent2[1] < 2.0F * kThickness2 && extent2[2] > 6.0F * extent2[1]) {
-    return {Shape::line, axes.eigenvectors().col(2)};
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    spread_of(map, neighbours[i]).store(spreads, i);
   }
-  return {};
-}
-
-LocalShape shape_around(const VoxelMap& map, const Voxel& voxel) noexcept {
-  Spread around;
-  for_each_neighbour(map, voxel.key, [&](std::size_t index, const Lattice& step) {
-    const Vec3f shift(static_cast<float>(step[0]), static_cast<float>(step[1]),
-                      static_cast<float>(step[2]));
-    around.add(map.voxels()[index].moments, shift * kVoxelM);
-  });
-  const LocalShape wide = local_shape(around);
-  if (wide.shape == Shape::plane || voxel.moments.count <= kManyPoints) return wide;
-  Spread alone;
-  alone.add(voxel.moments, Vec3f::Zero());
-  const LocalShape narrow = local_shape(alone);
-  return narrow.shape == Shape::plane ? narrow : wide;
+  ShapeColumns wide;
+  take_shapes(spreads, wide);
+  std::array<std::size_t, kShapesAtOnce> alone;
+  std::size_t alone_count = 0;
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    Voxel& voxel = map.voxels()[voxels[i]];
+    set_shape(voxel, wide, i);
+    if (voxel.shape == Shape::plane || voxel.moments.count <= kManyPoints) continue;
+    Spread spread;
+    spread.add(voxel.moments, Vec3f::Zero());
+    spread.store(spreads, alone_count);
+    alone[alone_count++] = i;
+  }
+  if (alone_count == 0) return;
+  ShapeColumns narrow;
+  take_shapes(spreads, narrow);
+  for (std::size_t k = 0; k < alone_count; ++k) {
+    if (narrow.is_plane[k] != 0) set_shape(map.voxels()[voxels[alone[k]]], narrow, k);
+  }
 }
 
 }  // namespace convexcut::robust

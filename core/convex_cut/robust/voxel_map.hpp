@@ -114,36 +114,51 @@ class VoxelMap {
   std::vector<Voxel> voxels_;
 };
 
+// Where the voxels are that lie around one, itself among them: those of up to eight blocks.
+class Neighbourhood {
+ public:
+  static constexpr std::uint32_t kSize = 27;
+
+  Neighbourhood(const VoxelMap& map, VoxelKey key) noexcept {
+    constexpr VoxelKey kX = VoxelKey{1} << 42U;
+    constexpr VoxelKey kY = VoxelKey{1} << 21U;
+    const VoxelKey first = key - kX - kY - 1;  // the corner; keys add up as places do
+    x0_ = static_cast<std::uint32_t>((first >> 42U) & 3U);
+    y0_ = static_cast<std::uint32_t>((first >> 21U) & 3U);
+    z0_ = static_cast<std::uint32_t>(first & 3U);
+    for (std::uint32_t x = 0; x <= (x0_ + 2) / 4; ++x) {
+      for (std::uint32_t y = 0; y <= (y0_ + 2) / 4; ++y) {
+        for (std::uint32_t z = 0; z <= (z0_ + 2) / 4; ++z) {
+          blocks_[4 * x + 2 * y + z] = map.block_at(first + 4 * (x * kX + y * kY + z));
+        }
+      }
+    }
+  }
+  // Of lattice steps 0 … 2 from the corner on.
+  [[nodiscard]] std::int32_t at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const noexcept {
+    x += x0_;
+    y += y0_;
+    z += z0_;
+    return blocks_[x / 4 * 4 + y / 4 * 2 + z / 4][x % 4 * 16 + y % 4 * 4 + z % 4];
+  }
+
+ private:
+  std::array<const std::int32_t*, 8> blocks_{};  // from the corner on, and those that follow
+  std::uint32_t x0_, y0_, z0_;                   // of the corner in its block
+};
+
 // Whether test(index, offset) is true of the voxel or one of its 26 neighbours, as far as they are
 // occupied; offset in lattice steps. Ends with the first.
 template <class Test>
 [[nodiscard]] bool any_neighbour(const VoxelMap& map, VoxelKey key, Test&& test) noexcept {
-  constexpr VoxelKey kX = VoxelKey{1} << 42U;
-  constexpr VoxelKey kY = VoxelKey{1} << 21U;
-  const VoxelKey first = key - kX - kY - 1;  // the corner; keys add up as places do
-  const auto x0 = static_cast<std::uint32_t>((first >> 42U) & 3U);
-  const auto y0 = static_cast<std::uint32_t>((first >> 21U) & 3U);
-  const auto z0 = static_cast<std::uint32_t>(first & 3U);
-  std::array<const std::int32_t*, 8> blocks{};  // from x0, y0, z0 on, and those that follow
-  for (std::uint32_t x = 0; x <= (x0 + 2) / 4; ++x) {
-    for (std::uint32_t y = 0; y <= (y0 + 2) / 4; ++y) {
-      for (std::uint32_t z = 0; z <= (z0 + 2) / 4; ++z) {
-        blocks[4 * x + 2 * y + z] = map.block_at(first + 4 * (x * kX + y * kY + z));
-      }
-    }
-  }
-  for (std::uint32_t x = x0; x <= x0 + 2; ++x) {
-    for (std::uint32_t y = y0; y <= y0 + 2; ++y) {
-      for (std::uint32_t z = z0; z <= z0 + 2; ++z) {
-        const std::int32_t index =
-            blocks[x / 4 * 4 + y / 4 * 2 + z / 4][x % 4 * 16 + y % 4 * 4 + z % 4];
+  const Neighbourhood around(map, key);
+  for (std::uint32_t x = 0; x < 3; ++x) {
+    for (std::uint32_t y = 0; y < 3; ++y) {
+      for (std::uint32_t z = 0; z < 3; ++z) {
+        const std::int32_t index = around.at(x, y, z);
         if (index == VoxelMap::kNone) continue;
-        const auto step = [](std::uint32_t at, std::uint32_t from) {
-          return static_cast<std::int32_t>(at - from) - 1;
-        };
-        if (test(static_cast<std::size_t>(index), Lattice{step(x, x0), step(y, y0), step(z, z0)})) {
-          return true;
-        }
+        const auto step = [](std::uint32_t at) { return static_cast<std::int32_t>(at) - 1; };
+        if (test(static_cast<std::size_t>(index), Lattice{step(x), step(y), step(z)})) return true;
       }
     }
   }

@@ -2,6 +2,8 @@
 #include "core/convex_cut/robust/window.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "core/convex_cut/robust/shape.hpp"
 
@@ -58,15 +60,20 @@ void Window::forget_oldest() noexcept {
 }
 
 void Window::take_shapes() noexcept {
-  for (Voxel& voxel : map_.voxels()) {
+  std::array<std::uint32_t, kShapesAtOnce> changed;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < map_.size(); ++i) {
+    Voxel& voxel = map_.voxels()[i];
     if (!voxel.changed) continue;
     voxel.changed = false;
     voxel.shape = Shape::other;
     if (voxel.moments.count < kSupport) continue;
-    const LocalShape local = shape_around(map_, voxel);
-    voxel.shape = local.shape;
-    voxel.direction = local.direction;
+    changed[count++] = static_cast<std::uint32_t>(i);
+    if (count < kShapesAtOnce) continue;
+    robust::take_shapes(map_, changed);
+    count = 0;
   }
+  robust::take_shapes(map_, std::span(changed).first(count));
 }
 
 }  // namespace convexcut::robust
