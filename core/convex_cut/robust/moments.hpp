@@ -51,19 +51,35 @@ struct Moments {
 // Sums over several voxels, about one of their centres. Four at a time, as every processor that is
 // supported can; the compilers' vectors are what Eigen's are made of.
 class Spread {
+  using Four = float __attribute__((vector_size(16)));
+
  public:
   Spread() = default;
 
-  // shift_m: from the common centre to the moments' own.
-  void add(const Moments& m, const Vec3f& shift_m) noexcept {
-    const Four shift{shift_m.x(), shift_m.y(), shift_m.z(), 0.0F};
+  // From the common centre to the moments' own, in metres, as add() takes it.
+  class Shift {
+   public:
+    constexpr Shift() noexcept : Shift(0.0F, 0.0F, 0.0F) {}
+    constexpr Shift(float x, float y, float z) noexcept
+        : own_{x, y, z, 0.0F},
+          rows_first_{x, y, z, y},
+          columns_first_{x, x, x, y},
+          rows_last_{z, y, z, z},
+          columns_last_{x, y, y, z} {}
+
+   private:
+    friend class Spread;
+    Four own_, rows_first_, columns_first_, rows_last_, columns_last_;
+  };
+
+  void add(const Moments& m, const Shift& shift = {}) noexcept {
     const Four sums = four_at(m.sum_mm.data()) * Four{1e-3F, 1e-3F, 1e-3F, 1.0F};
     const Four n = __builtin_shufflevector(sums, sums, 3, 3, 3, 3);
-    sums_ += sums + n * shift;
+    sums_ += sums + n * shift.own_;
     first_ += product(four_at(m.products_mm2.data()), n, rows_first(sums), columns_first(sums),
-                      rows_first(shift), columns_first(shift));
+                      shift.rows_first_, shift.columns_first_);
     last_ += product(four_at(m.products_mm2.data() + 2), n, rows_last(sums), columns_last(sums),
-                     rows_last(shift), columns_last(shift));
+                     shift.rows_last_, shift.columns_last_);
   }
   [[nodiscard]] float count() const noexcept { return sums_[3]; }
   void store(SpreadColumns& to, std::size_t i) const noexcept {
@@ -88,7 +104,6 @@ class Spread {
   }
 
  private:
-  using Four = float __attribute__((vector_size(16)));
   using FourInts = std::int32_t __attribute__((vector_size(16)));
 
   [[nodiscard]] static Four four_at(const std::int32_t* values) noexcept {

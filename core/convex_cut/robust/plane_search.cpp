@@ -205,13 +205,23 @@ Plane PlaneSearch::best_trial(const Model& model) noexcept {
   const std::size_t stride = std::max<std::size_t>(1, left_.size / kTested);
   const SurfelColumns& tested = sample();
   Plane best;
+  std::array<Plane, kPlanesAtOnce> planes;
+  std::size_t count = 0;
+  const auto test = [&] {
+    const AgreeingCounts agreeing = count_agreeing(tested, planes, kPlaneGateM);
+    for (std::size_t k = 0; k < count; ++k) {
+      planes[k].surfels = static_cast<std::uint32_t>(agreeing[k] * stride);
+      if (planes[k].surfels > best.surfels) best = planes[k];
+    }
+    count = 0;
+  };
   for (int trial = 0; trial < kTrials; ++trial) {
-    std::optional<Plane> plane = plane_through(model.surfels[left_.index[random_left()]]);
+    const std::optional<Plane> plane = plane_through(model.surfels[left_.index[random_left()]]);
     if (!plane) continue;
-    plane->surfels =
-        static_cast<std::uint32_t>(count_agreeing(tested, *plane, kPlaneGateM) * stride);
-    if (plane->surfels > best.surfels) best = *plane;
+    planes[count++] = *plane;
+    if (count == kPlanesAtOnce) test();
   }
+  if (count > 0) test();
   return best;
 }
 

@@ -59,15 +59,20 @@ constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
   const std::int32_t least = surfel.shape == robust::Shape::other
                                  ? robust::kSupport + static_cast<std::int32_t>(revolutions) - 1
                                  : robust::kSupport;
-  const float range_m = std::max((surfel.mean - surfel.origin).norm(), robust::kVoxelM);
-  return surfel.points >= least &&
-         static_cast<float>(surfel.points) >= least_points(range_m, points_of_revolution);
+  if (surfel.points < least) return false;
+  // Most have so many more that they need no square root: this is far beyond its rounding.
+  constexpr float kSurely = 2.0F * kLeastFilled * robust::kVoxelM * robust::kVoxelM / kViewSr;
+  const auto points = static_cast<float>(surfel.points);
+  const float range2 = (surfel.mean - surfel.origin).squaredNorm();
+  if (points * range2 > kSurely * static_cast<float>(points_of_revolution)) return true;
+  const float range_m = std::max(std::sqrt(range2), robust::kVoxelM);
+  return points >= least_points(range_m, points_of_revolution);
 }
 
 // m², of a voxel's points across a plane, about their mean.
 [[nodiscard]] float spread2_across(const Voxel& voxel, const Plane& plane) noexcept {
   robust::Spread spread;
-  spread.add(voxel.moments, Vec3f::Zero());
+  spread.add(voxel.moments);
   return plane.normal.dot(spread.covariance() * plane.normal);
 }
 
@@ -273,15 +278,15 @@ void RobustCut::take_near() noexcept {
     }
     robust::find_planes(centres.columns(), model_.planes, reach_m, planes);
     for (std::size_t i = 0; i < count; ++i) {
-      near_[begin + i] = near_of(voxels[begin + i], planes[i]);
+      near_[begin + i] = near_of(window_.merged(begin + i), planes[i]);
     }
   }
 }
 
-// planes: within reach of the voxel.
-RobustCut::Near RobustCut::near_of(const Voxel& voxel, std::uint64_t planes) const noexcept {
+// in_window: the voxel, see Window::merged(). planes: within its reach.
+RobustCut::Near RobustCut::near_of(std::int32_t in_window, std::uint64_t planes) const noexcept {
   Near near;
-  const auto merged = static_cast<std::size_t>(window_.map().find(voxel.key));
+  const auto merged = static_cast<std::size_t>(in_window);
   const bool known = merged < model_.surfels.size();
   if (known && model_.surfels[merged].mirrored) return near;
   near.curved = known && !is_curved_.empty() && is_curved_[merged] != 0;

@@ -75,7 +75,7 @@ class RobustCut {
   void take_surfels() noexcept;
   void find_structure() noexcept;
   void take_near() noexcept;
-  [[nodiscard]] Near near_of(const robust::Voxel& voxel, std::uint64_t planes) const noexcept;
+  [[nodiscard]] Near near_of(std::int32_t in_window, std::uint64_t planes) const noexcept;
   [[nodiscard]] bool is_fixture(const robust::Surfel& surfel, std::size_t plane) const noexcept;
   [[nodiscard]] bool is_structure(const Vec3f& p, std::int32_t voxel) const noexcept;
 

@@ -2,6 +2,7 @@
 #include "core/convex_cut/robust/shape.hpp"
 
 #include <array>
+#include <cstddef>
 
 namespace convexcut::robust {
 namespace {
@@ -37,13 +38,20 @@ void collect(const VoxelMap& map, VoxelKey key, Neighbours& found) noexcept {
   }
 }
 
+// By step from the corner on.
+constexpr auto kShifts = [] {
+  std::array<Spread::Shift, Neighbourhood::kSize> shifts;
+  for (std::size_t step = 0; step < shifts.size(); ++step) {
+    const auto offset_m = [](std::size_t at) { return (static_cast<float>(at) - 1.0F) * kVoxelM; };
+    shifts[step] = Spread::Shift(offset_m(step / 9), offset_m(step / 3 % 3), offset_m(step % 3));
+  }
+  return shifts;
+}();
+
 [[nodiscard]] Spread spread_of(const VoxelMap& map, const Neighbours& neighbours) noexcept {
-  const auto offset_m = [](int step) { return static_cast<float>(step - 1) * kVoxelM; };
   Spread around;
   for (std::size_t k = 0; k < neighbours.count; ++k) {
-    const int step = neighbours.step[k];
-    around.add(map.voxels()[neighbours.index[k]].moments,
-               Vec3f(offset_m(step / 9), offset_m(step / 3 % 3), offset_m(step % 3)));
+    around.add(map.voxels()[neighbours.index[k]].moments, kShifts[neighbours.step[k]]);
   }
   return around;
 }
@@ -79,7 +87,7 @@ void take_shapes(VoxelMap& map, std::span<const std::uint32_t> voxels) noexcept 
     set_shape(voxel, wide, i);
     if (voxel.shape == Shape::plane || voxel.moments.count <= kManyPoints) continue;
     Spread spread;
-    spread.add(voxel.moments, Vec3f::Zero());
+    spread.add(voxel.moments);
     spread.store(spreads, alone_count);
     alone[alone_count++] = i;
   }

@@ -63,15 +63,26 @@ HWY_INLINE Mask before_end(std::size_t i, std::size_t end) noexcept {
   return hn::FirstN(Floats(), end - i);
 }
 
-std::size_t count_agreeing(const SurfelColumns& surfels, const Plane& plane, float gate_m) {
+AgreeingCounts count_agreeing(const SurfelColumns& surfels,
+                              const std::array<Plane, kPlanesAtOnce>& planes, float gate_m) {
   const Floats df;
   const std::size_t lanes = hn::Lanes(df);
-  const PlaneTest test(surfels, plane, gate_m);
-  std::size_t count = 0;
+  const std::array<PlaneTest, kPlanesAtOnce> tests{
+      PlaneTest(surfels, planes[0], gate_m), PlaneTest(surfels, planes[1], gate_m),
+      PlaneTest(surfels, planes[2], gate_m), PlaneTest(surfels, planes[3], gate_m)};
+  AgreeingCounts counts{};
   std::size_t i = 0;
-  for (; i + lanes <= surfels.size; i += lanes) count += hn::CountTrue(df, test.agrees(i));
-  if (i == surfels.size) return count;
-  return count + hn::CountTrue(df, hn::And(test.agrees(i), before_end(i, surfels.size)));
+  for (; i + lanes <= surfels.size; i += lanes) {
+    for (std::size_t k = 0; k < kPlanesAtOnce; ++k) {
+      counts[k] += hn::CountTrue(df, tests[k].agrees(i));
+    }
+  }
+  if (i == surfels.size) return counts;
+  const Mask valid = before_end(i, surfels.size);
+  for (std::size_t k = 0; k < kPlanesAtOnce; ++k) {
+    counts[k] += hn::CountTrue(df, hn::And(tests[k].agrees(i), valid));
+  }
+  return counts;
 }
 
 void mark_agreeing(const SurfelColumns& surfels, const Plane& plane, float gate_m,
@@ -144,9 +155,10 @@ HWY_EXPORT(mark_agreeing);
 HWY_EXPORT(copy_near);
 HWY_EXPORT(take_agreeing);
 
-std::size_t count_agreeing(const SurfelColumns& surfels, const Plane& plane,
-                           float gate_m) noexcept {
-  return HWY_DYNAMIC_DISPATCH(count_agreeing)(surfels, plane, gate_m);
+AgreeingCounts count_agreeing(const SurfelColumns& surfels,
+                              const std::array<Plane, kPlanesAtOnce>& planes,
+                              float gate_m) noexcept {
+  return HWY_DYNAMIC_DISPATCH(count_agreeing)(surfels, planes, gate_m);
 }
 
 void mark_agreeing(const SurfelColumns& surfels, const Plane& plane, float gate_m,

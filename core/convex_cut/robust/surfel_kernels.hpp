@@ -5,6 +5,7 @@
 // lock, no system call.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -41,9 +42,13 @@ class SurfelColumns {
   Workspace<float> values_;
 };
 
-// How many of the surfels agree with the plane: at most gate_m from it, and along it.
-[[nodiscard]] std::size_t count_agreeing(const SurfelColumns& surfels, const Plane& plane,
-                                         float gate_m) noexcept;
+// How many of the surfels agree with each plane: at most gate_m from it, and along it. Several
+// planes at once, so that a surfel is loaded for all of them.
+inline constexpr std::size_t kPlanesAtOnce = 4;
+using AgreeingCounts = std::array<std::size_t, kPlanesAtOnce>;
+[[nodiscard]] AgreeingCounts count_agreeing(const SurfelColumns& surfels,
+                                            const std::array<Plane, kPlanesAtOnce>& planes,
+                                            float gate_m) noexcept;
 
 // A bit for each surfel, lowest first; of the last word, those behind the end are 0.
 void mark_agreeing(const SurfelColumns& surfels, const Plane& plane, float gate_m,

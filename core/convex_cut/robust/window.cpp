@@ -13,6 +13,7 @@ Window::Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std
     : slots_(revolutions), map_(voxels) {
   entries_.resize(std::max({std::size_t{1}, voxels_per_revolution,
                             revolutions * std::min(voxels_per_revolution, kUsualVoxels)}));
+  merged_.resize(voxels_per_revolution);
 }
 
 void Window::clear() noexcept {
@@ -30,10 +31,13 @@ void Window::add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t 
   map_.remove_empty();
   const Slot& last = slots_[(newest_ + slots_.size() - 1) % slots_.size()];
   const std::size_t first = (last.first + last.count) % entries_.size();
-  Slot& slot = slots_[newest_ % slots_.size()];
+  newest_slot_ = newest_ % slots_.size();
+  Slot& slot = slots_[newest_slot_];
   slot = {first, 0, origin};
-  for (const Voxel& voxel : revolution.voxels()) {
+  for (std::size_t i = 0; i < revolution.size(); ++i) {
+    const Voxel& voxel = revolution.voxels()[i];
     const std::int32_t index = map_.find_or_add(voxel.key);
+    merged_[i] = index;
     if (index == VoxelMap::kNone) continue;
     Voxel& merged = map_.voxels()[static_cast<std::size_t>(index)];
     merged.moments.add(voxel.moments, +1);

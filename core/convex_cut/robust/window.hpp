@@ -28,10 +28,15 @@ class Window {
   [[nodiscard]] std::uint32_t revolutions() const noexcept { return newest_ - oldest_; }
   // Where the lidar was when the voxel was seen last.
   [[nodiscard]] const Vec3f& origin_of(const Voxel& voxel) const noexcept {
-    return slots_[voxel.revolution % slots_.size()].origin;
+    const std::size_t age = newest_ - 1 - voxel.revolution;
+    return slots_[newest_slot_ >= age ? newest_slot_ - age : newest_slot_ + slots_.size() - age]
+        .origin;
   }
-  [[nodiscard]] const Vec3f& origin() const noexcept {
-    return slots_[(newest_ - 1) % slots_.size()].origin;
+  [[nodiscard]] const Vec3f& origin() const noexcept { return slots_[newest_slot_].origin; }
+
+  // The map's index of a voxel of the newest revolution; VoxelMap::kNone where it had no room.
+  [[nodiscard]] std::int32_t merged(std::size_t voxel_of_revolution) const noexcept {
+    return merged_[voxel_of_revolution];
   }
 
  private:
@@ -55,7 +60,9 @@ class Window {
   std::vector<Slot> slots_;
   std::uint32_t oldest_ = 0;  // revolutions [oldest_, newest_) are in the map
   std::uint32_t newest_ = 0;
+  std::size_t newest_slot_ = 0;
   VoxelMap map_;
+  Workspace<std::int32_t> merged_;  // by voxel of the newest revolution
 };
 
 }  // namespace convexcut::robust
