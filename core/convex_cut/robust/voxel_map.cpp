@@ -35,6 +35,7 @@ Vec3f centre_of(const Lattice& place) noexcept {
 VoxelMap::VoxelMap(std::size_t capacity) {
   const std::size_t blocks = capacity / 4 + kLeastBlocks;
   slots_.resize(std::bit_ceil(2 * blocks));
+  is_home_.resize(slots_.size() / kBits);
   places_.reserve((blocks + 1) * kBlock);
   block_voxels_.reserve(blocks + 1);
   voxels_.reserve(capacity);
@@ -48,6 +49,7 @@ void VoxelMap::clear() noexcept {
 
 void VoxelMap::lay_out_anew() noexcept {
   std::fill(slots_.begin(), slots_.end(), Slot{});
+  std::fill(is_home_.begin(), is_home_.end(), std::uint64_t{0});
   places_.assign(kBlock, kNone);
   block_voxels_.assign(1, 0);
   empty_blocks_ = 0;
@@ -57,11 +59,13 @@ void VoxelMap::lay_out_anew() noexcept {
 // The place where it begins; 0 when there is no room for it.
 std::size_t VoxelMap::find_or_add_block(VoxelKey key) noexcept {
   const VoxelKey block = block_of(key);
-  std::size_t i = home_of(block);
+  const std::size_t home = home_of(block);
+  std::size_t i = home;
   for (; slots_[i].block != kFree; i = (i + 1) & (slots_.size() - 1)) {
     if (slots_[i].block == block) return slots_[i].first_place;
   }
   if (places_.size() == places_.capacity()) return 0;
+  is_home_[home / kBits] |= std::uint64_t{1} << home % kBits;
   slots_[i] = {block, static_cast<std::uint32_t>(places_.size())};
   places_.resize(places_.size() + kBlock, kNone);
   block_voxels_.push_back(0);

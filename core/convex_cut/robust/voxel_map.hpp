@@ -78,18 +78,22 @@ class VoxelMap {
   // The indices of the voxels in the block that the key lies in, each kNone where there is none.
   [[nodiscard]] const std::int32_t* block_at(VoxelKey key) const noexcept {
     const VoxelKey block = block_of(key);
-    for (std::size_t i = home_of(block);; i = (i + 1) & (slots_.size() - 1)) {
+    const std::size_t home = home_of(block);
+    if ((is_home_[home / kBits] >> home % kBits & 1U) == 0) return empty_block();
+    for (std::size_t i = home;; i = (i + 1) & (slots_.size() - 1)) {
       const Slot& slot = slots_[i];
       if (slot.block == block || slot.block == kFree) return &places_[slot.first_place];
     }
   }
+  [[nodiscard]] const std::int32_t* empty_block() const noexcept { return places_.data(); }
   [[nodiscard]] static constexpr std::size_t place_in_block(VoxelKey key) noexcept {
     return ((key >> 38U) & 48U) | ((key >> 19U) & 12U) | (key & 3U);
   }
 
  private:
   static constexpr std::size_t kBlock = 64;  // voxels
-  static constexpr VoxelKey kFree = 1;       // no block's: the lowest bits of theirs are zero
+  static constexpr std::size_t kBits = 64;
+  static constexpr VoxelKey kFree = 1;  // no block's: the lowest bits of theirs are zero
   struct Slot {
     VoxelKey block = kFree;
     std::uint32_t first_place = 0;  // of a free slot, those of the empty block
@@ -108,6 +112,7 @@ class VoxelMap {
   void lay_out_anew() noexcept;
 
   std::vector<Slot> slots_;                 // a power of two of them
+  std::vector<std::uint64_t> is_home_;      // a bit a slot: of any block; small enough for a cache
   std::vector<std::int32_t> places_;        // by block; the first block stays empty
   std::vector<std::uint8_t> block_voxels_;  // how many are in each
   std::size_t empty_blocks_ = 0;
@@ -129,11 +134,15 @@ class Neighbourhood {
     for (std::uint32_t x = 0; x <= (x0_ + 2) / 4; ++x) {
       for (std::uint32_t y = 0; y <= (y0_ + 2) / 4; ++y) {
         for (std::uint32_t z = 0; z <= (z0_ + 2) / 4; ++z) {
-          blocks_[4 * x + 2 * y + z] = map.block_at(first + 4 * (x * kX + y * kY + z));
+          const std::int32_t* block = map.block_at(first + 4 * (x * kX + y * kY + z));
+          is_empty_ = is_empty_ && block == map.empty_block();
+          blocks_[4 * x + 2 * y + z] = block;
         }
       }
     }
   }
+  // For sure.
+  [[nodiscard]] bool is_empty() const noexcept { return is_empty_; }
   // Of lattice steps 0 … 2 from the corner on.
   [[nodiscard]] std::int32_t at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const noexcept {
     x += x0_;
@@ -145,6 +154,7 @@ class Neighbourhood {
  private:
   std::array<const std::int32_t*, 8> blocks_{};  // from the corner on, and those that follow
   std::uint32_t x0_, y0_, z0_;                   // of the corner in its block
+  bool is_empty_ = true;
 };
 
 // Whether test(index, offset) is true of the voxel or one of its 26 neighbours, as far as they are
@@ -152,6 +162,7 @@ class Neighbourhood {
 template <class Test>
 [[nodiscard]] bool any_neighbour(const VoxelMap& map, VoxelKey key, Test&& test) noexcept {
   const Neighbourhood around(map, key);
+  if (around.is_empty()) return false;
   for (std::uint32_t x = 0; x < 3; ++x) {
     for (std::uint32_t y = 0; y < 3; ++y) {
       for (std::uint32_t z = 0; z < 3; ++z) {
