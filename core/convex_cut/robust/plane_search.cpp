@@ -51,11 +51,39 @@ constexpr std::uint32_t kLargeSurfels = 150;  // of a wall; smaller ones may be 
   return plane;
 }
 
-struct WeightedSums {
-  std::uint32_t count = 0;
-  double weight = 0.0;
-  Vec3 sum = Vec3::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // its lower triangle
+// Of the surfels of a fit. Two at a time, as every processor that is supported can; the compilers'
+// vectors are what Eigen's are made of.
+class WeightedSums {
+  using Two = double __attribute__((vector_size(16)));
+
+ public:
+  void add(double x, double y, double z, double weight) noexcept {
+    const double wz = weight * z;
+    const Two wx_wy = Two{weight, weight} * Two{x, y};
+    const Two wy_wz{wx_wy[1], wz};
+    xx_xy_ += wx_wy * Two{x, x};
+    xz_x_ += Two{wz, weight} * Two{x, x};
+    yy_yz_ += wy_wz * Two{y, y};
+    y_z_ += wy_wz;
+    zz_weight_ += Two{wz * z, weight};
+    ++count_;
+  }
+  [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
+  [[nodiscard]] Vec3 mean() const noexcept {
+    return Vec3(xz_x_[1], y_z_[0], y_z_[1]) / zz_weight_[1];
+  }
+  // Its lower triangle.
+  [[nodiscard]] Eigen::Matrix3d covariance() const noexcept {
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+    products.col(0) << xx_xy_[0], xx_xy_[1], xz_x_[0];
+    products.col(1).tail<2>() << yy_yz_[0], yy_yz_[1];
+    products(2, 2) = zz_weight_[0];
+    return products / zz_weight_[1] - mean() * mean().transpose();
+  }
+
+ private:
+  Two xx_xy_{}, xz_x_{}, yy_yz_{}, y_z_{}, zz_weight_{};
+  std::uint32_t count_ = 0;
 };
 
 // Of the surfels whose bit is set, in their order.
@@ -70,17 +98,8 @@ struct WeightedSums {
   for (std::size_t word = 0; word * kBits < surfels.size; ++word) {
     for (std::uint64_t left = bits[word]; left != 0; left &= left - 1) {
       const std::size_t i = word * kBits + static_cast<std::size_t>(std::countr_zero(left));
-      const auto w = static_cast<double>(weight[i]);
-      const Vec3 p = Vec3f(x[i], y[i], z[i]).cast<double>();
-      sums.weight += w;
-      const Vec3 weighted = w * p;
-      sums.sum += weighted;
-      for (Eigen::Index column = 0; column < 3; ++column) {
-        for (Eigen::Index row = column; row < 3; ++row) {
-          sums.products(row, column) += weighted[row] * p[column];
-        }
-      }
-      ++sums.count;
+      sums.add(static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i]),
+               static_cast<double>(weight[i]));
     }
   }
   return sums;
@@ -231,11 +250,11 @@ std::uint32_t PlaneSearch::refine(Plane& plane) noexcept {
   for (const float gate_m : kGatesM) {
     mark_agreeing(near_, plane, gate_m, agree_);
     const WeightedSums sums = sums_of(near_, agree_);
-    if (sums.count < kLeastSurfels) return 0;
-    count = sums.count;
-    const Vec3 mean = sums.sum / sums.weight;
+    if (sums.count() < kLeastSurfels) return 0;
+    count = sums.count();
+    const Vec3 mean = sums.mean();
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-    axes.computeDirect(sums.products / sums.weight - mean * mean.transpose());
+    axes.computeDirect(sums.covariance());
     if (axes.eigenvalues()[1] > kLine2) plane.normal = axes.eigenvectors().col(0).cast<float>();
     plane.offset = -plane.normal.dot(mean.cast<float>());
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace convexcut::robust {
 namespace {
@@ -11,26 +10,6 @@ namespace {
 constexpr std::size_t kLeastBlocks = 1'024;
 
 }  // namespace
-
-Lattice place_of(VoxelKey key) noexcept {
-  const auto part = [](VoxelKey bits) {
-    return static_cast<std::int32_t>(bits & 0x1F'FFFF) - kLatticeBias;
-  };
-  return {part(key >> 42U), part(key >> 21U), part(key)};
-}
-
-Lattice place_of(const Vec3f& point) noexcept {
-  const auto step = [](float c) {
-    return static_cast<std::int32_t>(
-        std::clamp(std::floor(c / kVoxelM), -kLatticeLimit, kLatticeLimit));
-  };
-  return {step(point.x()), step(point.y()), step(point.z())};
-}
-
-Vec3f centre_of(const Lattice& place) noexcept {
-  const auto middle = [](std::int32_t c) { return (static_cast<float>(c) + 0.5F) * kVoxelM; };
-  return {middle(place[0]), middle(place[1]), middle(place[2])};
-}
 
 VoxelMap::VoxelMap(std::size_t capacity) {
   const std::size_t blocks = capacity / 4 + kLeastBlocks;

@@ -3,7 +3,9 @@
 // The occupied cubes of a cloud with the sums of their points, found by a hash of their place.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,9 +31,25 @@ inline constexpr auto kLatticeLimit = static_cast<float>(kLatticeBias - 2);
   };
   return (part(place[0]) << 42U) | (part(place[1]) << 21U) | part(place[2]);
 }
-[[nodiscard]] Lattice place_of(VoxelKey key) noexcept;
-[[nodiscard]] Lattice place_of(const Vec3f& point) noexcept;
-[[nodiscard]] Vec3f centre_of(const Lattice& place) noexcept;
+[[nodiscard]] inline Lattice place_of(VoxelKey key) noexcept {
+  const auto part = [](VoxelKey bits) {
+    return static_cast<std::int32_t>(bits & 0x1F'FFFF) - kLatticeBias;
+  };
+  return {part(key >> 42U), part(key >> 21U), part(key)};
+}
+
+[[nodiscard]] inline Lattice place_of(const Vec3f& point) noexcept {
+  const auto step = [](float c) {
+    return static_cast<std::int32_t>(
+        std::clamp(std::floor(c / kVoxelM), -kLatticeLimit, kLatticeLimit));
+  };
+  return {step(point.x()), step(point.y()), step(point.z())};
+}
+
+[[nodiscard]] inline Vec3f centre_of(const Lattice& place) noexcept {
+  const auto middle = [](std::int32_t c) { return (static_cast<float>(c) + 0.5F) * kVoxelM; };
+  return {middle(place[0]), middle(place[1]), middle(place[2])};
+}
 
 // What the neighbourhood of a voxel looks like.
 enum class Shape : std::uint8_t {
