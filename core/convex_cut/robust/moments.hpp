@@ -6,11 +6,9 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 
 #include <Eigen/Eigenvalues>
 
-#include "core/convex_cut/robust/shape_kernels.hpp"
 #include "core/geometry.hpp"
 
 namespace convexcut::robust {
@@ -48,90 +46,18 @@ struct Moments {
   }
 };
 
-// Sums over several voxels, about one of their centres. Four at a time, as every processor that is
-// supported can; the compilers' vectors are what Eigen's are made of.
-class Spread {
-  using Four = float __attribute__((vector_size(16)));
-
- public:
-  Spread() = default;
-
-  // From the common centre to the moments' own, in metres, as add() takes it.
-  class Shift {
-   public:
-    constexpr Shift() noexcept : Shift(0.0F, 0.0F, 0.0F) {}
-    constexpr Shift(float x, float y, float z) noexcept
-        : own_{x, y, z, 0.0F},
-          rows_first_{x, y, z, y},
-          columns_first_{x, x, x, y},
-          rows_last_{z, y, z, z},
-          columns_last_{x, y, y, z} {}
-
-   private:
-    friend class Spread;
-    Four own_, rows_first_, columns_first_, rows_last_, columns_last_;
+// m²; count > 0.
+[[nodiscard]] inline Mat3f covariance(const Moments& m) noexcept {
+  const auto sum = [&m](std::size_t i) { return static_cast<float>(m.sum_mm[i]) * 1e-3F; };
+  const auto product = [&m](std::size_t i) {
+    return static_cast<float>(m.products_mm2[i]) * 1e-6F;
   };
-
-  void add(const Moments& m, const Shift& shift = {}) noexcept {
-    const Four sums = four_at(m.sum_mm.data()) * Four{1e-3F, 1e-3F, 1e-3F, 1.0F};
-    const Four n = __builtin_shufflevector(sums, sums, 3, 3, 3, 3);
-    sums_ += sums + n * shift.own_;
-    first_ += product(four_at(m.products_mm2.data()), n, rows_first(sums), columns_first(sums),
-                      shift.rows_first_, shift.columns_first_);
-    last_ += product(four_at(m.products_mm2.data() + 2), n, rows_last(sums), columns_last(sums),
-                     shift.rows_last_, shift.columns_last_);
-  }
-  [[nodiscard]] float count() const noexcept { return sums_[3]; }
-  void store(SpreadColumns& to, std::size_t i) const noexcept {
-    to.x[i] = sums_[0];
-    to.y[i] = sums_[1];
-    to.z[i] = sums_[2];
-    to.count[i] = sums_[3];
-    to.xx[i] = first_[0];
-    to.xy[i] = first_[1];
-    to.xz[i] = first_[2];
-    to.yy[i] = first_[3];
-    to.yz[i] = last_[2];
-    to.zz[i] = last_[3];
-  }
-  // m²; count() > 0.
-  [[nodiscard]] Mat3f covariance() const noexcept {
-    const Vec3f mean = Vec3f(sums_[0], sums_[1], sums_[2]) / count();
-    Mat3f products;
-    products << first_[0], first_[1], first_[2], first_[1], first_[3], last_[2], first_[2],
-        last_[2], last_[3];
-    return products / count() - mean * mean.transpose();
-  }
-
- private:
-  using FourInts = std::int32_t __attribute__((vector_size(16)));
-
-  [[nodiscard]] static Four four_at(const std::int32_t* values) noexcept {
-    FourInts ints;
-    std::memcpy(&ints, values, sizeof(ints));
-    return __builtin_convertvector(ints, Four);
-  }
-  // Of products xx xy xz yy yz zz as a matrix's lower triangle, the first four and the last four.
-  [[nodiscard]] static Four rows_first(Four v) noexcept {
-    return __builtin_shufflevector(v, v, 0, 1, 2, 1);
-  }
-  [[nodiscard]] static Four columns_first(Four v) noexcept {
-    return __builtin_shufflevector(v, v, 0, 0, 0, 1);
-  }
-  [[nodiscard]] static Four rows_last(Four v) noexcept {
-    return __builtin_shufflevector(v, v, 2, 1, 2, 2);
-  }
-  [[nodiscard]] static Four columns_last(Four v) noexcept {
-    return __builtin_shufflevector(v, v, 0, 1, 1, 2);
-  }
-  [[nodiscard]] static Four product(Four own_mm2, Four n, Four sum_of_row, Four sum_of_column,
-                                    Four shift_of_row, Four shift_of_column) noexcept {
-    return own_mm2 * 1e-6F + shift_of_row * sum_of_column + sum_of_row * shift_of_column +
-           n * shift_of_row * shift_of_column;
-  }
-
-  Four sums_{};  // and the number of points
-  Four first_{}, last_{};
-};
+  const auto count = static_cast<float>(m.count);
+  const Vec3f mean = Vec3f(sum(0), sum(1), sum(2)) / count;
+  Mat3f products;
+  products << product(0), product(1), product(2), product(1), product(3), product(4), product(2),
+      product(4), product(5);
+  return products / count - mean * mean.transpose();
+}
 
 }  // namespace convexcut::robust

@@ -71,9 +71,7 @@ constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
 
 // m², of a voxel's points across a plane, about their mean.
 [[nodiscard]] float spread2_across(const Voxel& voxel, const Plane& plane) noexcept {
-  robust::Spread spread;
-  spread.add(voxel.moments);
-  return plane.normal.dot(spread.covariance() * plane.normal);
+  return plane.normal.dot(robust::covariance(voxel.moments) * plane.normal);
 }
 
 // Of each plane; and what the sensor's noise is, by the largest ones.

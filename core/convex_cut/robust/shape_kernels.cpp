@@ -2,7 +2,11 @@
 #include "core/convex_cut/robust/shape_kernels.hpp"
 
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
+
+#include "core/convex_cut/robust/voxel_map.hpp"
 
 #undef HWY_TARGET_INCLUDE
 // Highway includes this file again for each instruction set.
@@ -15,6 +19,44 @@
 #ifndef CONVEXCUT_SHAPE_KERNELS_ONCE
 #define CONVEXCUT_SHAPE_KERNELS_ONCE
 namespace convexcut::robust {
+
+// Sums over the points of each neighbourhood: of coordinates in m, of their products in m².
+struct SpreadColumns {
+  using Column = std::array<float, kShapesAtOnce>;
+  alignas(64) Column count{};
+  Column x{}, y{}, z{};
+  Column xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+};
+
+// The compilers' vectors: eight at a time, or twice four. Of a voxel's Moments from the last sum
+// on: what lies before its products is summed up as well, for nothing.
+using FourFloats = float __attribute__((vector_size(16)));
+using FourInts = std::int32_t __attribute__((vector_size(16)));
+using EightFloats = float __attribute__((vector_size(32)));
+using EightInts = std::int32_t __attribute__((vector_size(32)));
+constexpr std::size_t kLastSum = 2 * sizeof(std::int32_t);
+static_assert(offsetof(Moments, sum_mm) == 0 && offsetof(Moments, count) == 12 &&
+              offsetof(Moments, products_mm2) == 16 && sizeof(Moments) == 40);
+
+// From the middle one's centre to a voxel's, in metres: as summed with the sums, and as the rows
+// and columns of the products xx xy xz yy yz zz.
+struct Shift {
+  FourFloats own{};
+  EightFloats rows{}, columns{};
+};
+constexpr auto kShifts = [] {
+  std::array<Shift, Around::kMost> shifts;
+  for (std::size_t step = 0; step < shifts.size(); ++step) {
+    const auto offset_m = [](std::size_t at) { return (static_cast<float>(at) - 1.0F) * kVoxelM; };
+    const float x = offset_m(step / 9);
+    const float y = offset_m(step / 3 % 3);
+    const float z = offset_m(step % 3);
+    shifts[step].own = FourFloats{x, y, z, 0.0F};
+    shifts[step].rows = EightFloats{0.0F, 0.0F, x, y, z, y, z, z};
+    shifts[step].columns = EightFloats{0.0F, 0.0F, x, x, x, y, y, z};
+  }
+  return shifts;
+}();
 
 // Of each angle atan2(y, x) / 3; the library's functions, for their bits.
 struct Thirds {
@@ -85,7 +127,39 @@ struct Symmetric {
   }
 };
 
-// Spread::covariance().
+void sum_up(const Around& around, SpreadColumns& to, std::size_t at) {
+  FourFloats all_sums{};
+  EightFloats all_products{};
+  for (std::size_t k = 0; k < around.count; ++k) {
+    const Shift& shift = kShifts[around.step[k]];
+    const auto* const from = reinterpret_cast<const std::byte*>(around.moments[k]);
+    FourInts sums_mm;
+    EightInts products_mm2;
+    std::memcpy(&sums_mm, from, sizeof(sums_mm));
+    std::memcpy(&products_mm2, from + kLastSum, sizeof(products_mm2));
+    const FourFloats sums =
+        __builtin_convertvector(sums_mm, FourFloats) * FourFloats{1e-3F, 1e-3F, 1e-3F, 1.0F};
+    const FourFloats n = __builtin_shufflevector(sums, sums, 3, 3, 3, 3);
+    all_sums += sums + n * shift.own;
+    const EightFloats ns = __builtin_shufflevector(sums, sums, 3, 3, 3, 3, 3, 3, 3, 3);
+    const EightFloats rows = __builtin_shufflevector(sums, sums, 0, 0, 0, 1, 2, 1, 2, 2);
+    const EightFloats columns = __builtin_shufflevector(sums, sums, 0, 0, 0, 0, 0, 1, 1, 2);
+    all_products += __builtin_convertvector(products_mm2, EightFloats) * 1e-6F +
+                    shift.rows * columns + rows * shift.columns + ns * shift.rows * shift.columns;
+  }
+  to.x[at] = all_sums[0];
+  to.y[at] = all_sums[1];
+  to.z[at] = all_sums[2];
+  to.count[at] = all_sums[3];
+  to.xx[at] = all_products[2];
+  to.xy[at] = all_products[3];
+  to.xz[at] = all_products[4];
+  to.yy[at] = all_products[5];
+  to.yz[at] = all_products[6];
+  to.zz[at] = all_products[7];
+}
+
+// As covariance().
 HWY_INLINE Symmetric covariance(const SpreadColumns& s, std::size_t i) noexcept {
   const auto load = [i](const SpreadColumns::Column& column)
                         HWY_ATTR { return hn::LoadU(Floats(), column.data() + i); };
@@ -219,7 +293,9 @@ HWY_INLINE Axes axes_of(const Symmetric& m, const Vector& eigenvalues) noexcept 
   return axes;
 }
 
-void take_shapes(const SpreadColumns& spreads, ShapeColumns& shapes) {
+void take_shapes(std::span<const Around> around, ShapeColumns& shapes) {
+  SpreadColumns spreads;
+  for (std::size_t i = 0; i < around.size(); ++i) sum_up(around[i], spreads, i);
   const Floats df;
   const Ints di;
   Thirds thirds;
@@ -264,8 +340,8 @@ namespace convexcut::robust {
 // Highway's table takes no noexcept functions; none of them throws.
 HWY_EXPORT(take_shapes);
 
-void take_shapes(const SpreadColumns& spreads, ShapeColumns& shapes) noexcept {
-  HWY_DYNAMIC_DISPATCH(take_shapes)(spreads, shapes);
+void take_shapes(std::span<const Around> around, ShapeColumns& shapes) noexcept {
+  HWY_DYNAMIC_DISPATCH(take_shapes)(around, shapes);
 }
 
 }  // namespace convexcut::robust

@@ -7,17 +7,21 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+
+#include "core/convex_cut/robust/moments.hpp"
 
 namespace convexcut::robust {
 
 inline constexpr std::size_t kShapesAtOnce = 16;
 
-// See Spread: sums of coordinates in m, of their products in m².
-struct SpreadColumns {
-  using Column = std::array<float, kShapesAtOnce>;
-  alignas(64) Column count{};
-  Column x{}, y{}, z{};
-  Column xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+// Voxels around one, itself among them.
+struct Around {
+  static constexpr std::size_t kMost = 27;
+  static constexpr std::uint8_t kMiddle = kMost / 2;
+  std::array<const Moments*, kMost> moments;
+  std::array<std::uint8_t, kMost> step;  // 9 x + 3 y + z, each 0 … 2 from the lowest on
+  std::size_t count = 0;
 };
 
 struct ShapeColumns {
@@ -27,7 +31,8 @@ struct ShapeColumns {
   std::array<std::int32_t, kShapesAtOnce> is_line{};   // not 0: it is, and no plane
 };
 
-// By the principal axes of the points. RT: no allocation, no lock, no system call.
-void take_shapes(const SpreadColumns& spreads, ShapeColumns& shapes) noexcept;
+// Of at most kShapesAtOnce neighbourhoods, by the principal axes of their points. RT: no
+// allocation, no lock, no system call.
+void take_shapes(std::span<const Around> around, ShapeColumns& shapes) noexcept;
 
 }  // namespace convexcut::robust

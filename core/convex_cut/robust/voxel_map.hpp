@@ -140,8 +140,6 @@ class VoxelMap {
 // Where the voxels are that lie around one, itself among them: those of up to eight blocks.
 class Neighbourhood {
  public:
-  static constexpr std::uint32_t kSize = 27;
-
   Neighbourhood(const VoxelMap& map, VoxelKey key) noexcept {
     constexpr VoxelKey kX = VoxelKey{1} << 42U;
     constexpr VoxelKey kY = VoxelKey{1} << 21U;
