@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/convex_cut/robust/shape.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -19,9 +20,11 @@ void collect(const VoxelMap& map, VoxelKey key, Around& found) noexcept {
     for (std::uint32_t y = 0; y < 3; ++y) {
       for (std::uint32_t z = 0; z < 3; ++z, ++step) {
         const std::int32_t index = around.at(x, y, z);
-        if (index == VoxelMap::kNone) continue;
-        found.moments[count] = &map.voxels()[static_cast<std::size_t>(index)].moments;
-        found.step[count++] = step;
+        // Without a branch: which of them are occupied is as good as random.
+        const auto at_least_0 = static_cast<std::size_t>(std::max(index, 0));
+        found.moments[count] = &map.voxels()[at_least_0].moments;
+        found.step[count] = step;
+        count += index != VoxelMap::kNone ? 1U : 0U;
       }
     }
   }
