@@ -170,7 +170,8 @@ void reject_furniture(Model& model) noexcept {
       s.accepted = false;
     }
     if (!s.accepted || !s.narrow || is_on_wider(model, s)) continue;
-    const bool round = model.planes[s.plane].spread2 > kRounder * model.noise2;
+    const bool round =
+        s.spread2 > kRounder * model.noise2 || is_uneven(s.spread2 / model.noise2, s.steps);
     if (round || s.top_m - s.bottom_m < kLeastHeightM || is_side_of_rejected(model, s)) {
       s.accepted = false;
     }

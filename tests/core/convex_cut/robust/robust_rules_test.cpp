@@ -217,6 +217,23 @@ TEST(RobustRules, KeepsANarrowFaceWithinAWiderWallAndRemovesItAlone) {
   EXPECT_GT(cut(room, {}).share_of(0), kKept);
 }
 
+// Two strips of a cell's width, and a wide flat part of the same plane in another place.
+TEST(RobustRules, ANarrowFaceIsJudgedByItsOwnSpread) {
+  for (const double set_back_m : {0.0, 0.03, 0.06}) {
+    BoxRoom room;
+    room.boxes = {{{2.0, 0.5, -1.2}, {2.3, 0.75, 0.9}},
+                  {{2.0 + set_back_m, 0.75, -1.2}, {2.3, 1.0, 0.9}},
+                  {{2.0, -2.7, -1.2}, {2.3, -2.2, 1.6}}};
+    Kept kept = cut(room, {}, 4);
+    for (int& box : kept.cloud.box) box = box == 1 ? 0 : box;
+    if (set_back_m > 0.0) {
+      EXPECT_LT(kept.share_of(0), kMostlyRemoved) << set_back_m;
+    } else {
+      EXPECT_GT(kept.share_of(0), kKept);
+    }
+  }
+}
+
 // In a narrow corridor, where ghosts are dense: their voxels beside a wall have its shape, so that
 // their number for the range tells; of the others, their number for the window.
 TEST(RobustRules, BelievesHardlyAnyVoxelOfIsolatedGhosts) {
