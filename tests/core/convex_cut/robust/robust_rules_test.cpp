@@ -217,6 +217,13 @@ TEST(RobustRules, KeepsANarrowFaceWithinAWiderWallAndRemovesItAlone) {
   EXPECT_GT(cut(room, {}).share_of(0), kKept);
 }
 
+// A pier whose foot is hidden and whose top is out of view: 0.8 m of it are in view, in four cells.
+TEST(RobustRules, KeepsANarrowFaceThatIsSeenInFourCells) {
+  BoxRoom room;
+  room.boxes = {{{3.0, 1.0, -0.2}, {3.2, 1.5, 1.6}}, {{2.5, 1.0, -1.2}, {3.2, 1.5, -0.2}}};
+  EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
 // Two strips of a cell's width, and a wide flat part of the same plane in another place.
 TEST(RobustRules, ANarrowFaceIsJudgedByItsOwnSpread) {
   for (const double set_back_m : {0.0, 0.03, 0.06}) {
