@@ -20,7 +20,8 @@ constexpr float kDeepestRecessM = 0.35F;  // of a window
 constexpr float kSillM = 0.3F;
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
-constexpr float kLeastHeightM = 1.0F;  // of a narrow face
+constexpr float kLeastHeightM = 0.9F;        // of a narrow face: four cells
+constexpr float kLeastPassedHeightM = 1.1F;  // of one that rays pass in places: five
 constexpr float kTouchM = 0.4F;
 constexpr float kSameTopM = 0.6F;
 constexpr float kRounder = 1.7F;   // spread², relative to the noise²
@@ -170,8 +171,10 @@ void reject_furniture(Model& model) noexcept {
       s.accepted = false;
     }
     if (!s.accepted || !s.narrow || is_on_wider(model, s)) continue;
-    const bool round = model.planes[s.plane].spread2 > kRounder * model.noise2;
-    if (round || s.top_m - s.bottom_m < kLeastHeightM || is_side_of_rejected(model, s)) {
+    const bool round =
+        s.spread2 > kRounder * model.noise2 || is_uneven(s.spread2 / model.noise2, s.steps);
+    const float least_m = s.open > 0 ? kLeastPassedHeightM : kLeastHeightM;
+    if (round || s.top_m - s.bottom_m < least_m || is_side_of_rejected(model, s)) {
       s.accepted = false;
     }
   }

@@ -24,6 +24,7 @@ struct Surfel {
   Vec3f origin = Vec3f::Zero();     // where it was seen from
   std::int32_t points = 0;
   std::int32_t plane = kNoPlane;  // that it lies on
+  float spread2 = 0.0F;           // m², of its points about that plane
   Shape shape = Shape::other;
   bool mirrored = false;   // an image behind a mirror, not a surface
   bool supported = false;  // by enough points to be a surface
@@ -53,6 +54,7 @@ struct WallSegment {
   float begin_m = 0.0F, end_m = 0.0F;   // along the plane
   float bottom_m = 0.0F, top_m = 0.0F;  // z of what was seen of it
   std::uint32_t closed = 0, open = 0;   // cells seen in columns that nothing, something passes
+  float spread2 = 0.0F;                 // m², of its points about the plane
   float steps = 0.0F;                   // share of neighbouring cells that are not equally deep
   bool accepted = false;
   bool narrow = false;     // may be a pillar or a person

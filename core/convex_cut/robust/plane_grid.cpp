@@ -112,6 +112,7 @@ void PlaneGrids::mark_seen(const Model& model) noexcept {
     seen.height_sum_m +=
         static_cast<float>(surfel.points) *
         model.planes[static_cast<std::size_t>(surfel.plane)].height_of(surfel.mean);
+    seen.square_sum_m2 += static_cast<float>(surfel.points) * surfel.spread2;
     Extent& extent = extents_[g.first_extent + static_cast<std::size_t>(column)];
     const float along = g.along.dot(surfel.mean);
     extent.low_m = std::min(extent.low_m, along);

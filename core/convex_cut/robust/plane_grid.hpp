@@ -25,12 +25,13 @@ inline constexpr std::int32_t kFlatReach = 6;
 inline constexpr std::int32_t kWallReach = 1;
 
 struct Cell {
-  std::uint16_t seen = 0;     // surfels of the plane
-  std::uint16_t passed = 0;   // rays that end well behind the plane
-  std::int16_t part = -1;     // of a flat plane: connected cells
-  std::int32_t points = 0;    // of these surfels
-  float height_sum_m = 0.0F;  // of the points, over the plane
-  float layer_m = 0.0F;       // how far the fixture that covers the cell is off the wall; 0: none
+  std::uint16_t seen = 0;      // surfels of the plane
+  std::uint16_t passed = 0;    // rays that end well behind the plane
+  std::int16_t part = -1;      // of a flat plane: connected cells
+  std::int32_t points = 0;     // of these surfels
+  float height_sum_m = 0.0F;   // of the points, over the plane
+  float square_sum_m2 = 0.0F;  // of these heights
+  float layer_m = 0.0F;        // how far the fixture that covers the cell is off the wall; 0: none
   bool structure = false;
   bool before = false;    // something is seen close before it
   bool enclosed = false;  // that above and below: the back of a shelf

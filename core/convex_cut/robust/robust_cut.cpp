@@ -80,15 +80,15 @@ void measure_spread(robust::Model& model, std::span<const Voxel> voxels) noexcep
   std::array<double, robust::PlaneSearch::kMostPlanes> squares{};
   std::array<std::uint32_t, robust::PlaneSearch::kMostPlanes> along{};  // surfels
   for (std::size_t i = 0; i < model.surfels.size(); ++i) {
-    const Surfel& surfel = model.surfels[i];
+    Surfel& surfel = model.surfels[i];
     if (surfel.plane == robust::kNoPlane) continue;
     const auto k = static_cast<std::size_t>(surfel.plane);
     const Plane& plane = model.planes[k];
     const float height = plane.height_of(surfel.mean);
     along.at(k) += std::abs(plane.height_of(surfel.origin)) < kEdgeOnM ? 1U : 0U;
+    surfel.spread2 = spread2_across(voxels[i], plane) + height * height;
     points.at(k) += surfel.points;
-    squares.at(k) += static_cast<double>(surfel.points) *
-                     static_cast<double>(spread2_across(voxels[i], plane) + height * height);
+    squares.at(k) += static_cast<double>(surfel.points) * static_cast<double>(surfel.spread2);
   }
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     model.planes[k].edge_on = 2 * along.at(k) > model.planes[k].surfels;

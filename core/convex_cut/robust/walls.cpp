@@ -16,9 +16,7 @@ constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
 constexpr float kToCeilingM = 0.35F;
 constexpr float kWidestScreenM = 2.5F;
 constexpr float kBelowCeilingM = 0.45F;
-constexpr float kRough = 2.5F;   // spread², relative to the noise²
-constexpr float kUneven = 1.3F;  // the same, where there are steps as well
-constexpr float kMostSteps = 0.3F;
+constexpr float kRough = 2.5F;  // spread², relative to the noise²
 constexpr float kStepM = 0.015F;
 constexpr std::int32_t kLeastPoints = 8;  // of a cell, for its mean
 constexpr std::int32_t kLeastPairs = 7;
@@ -48,12 +46,26 @@ constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
   return pairs < kLeastPairs ? 0.0F : static_cast<float>(steps) / static_cast<float>(pairs);
 }
 
+// Of the points on columns [first, end), about the plane.
+[[nodiscard]] float spread2_of(const PlaneGrids& grids, const PlaneGrid& grid, std::int32_t first,
+                               std::int32_t end) noexcept {
+  float squares_m2 = 0.0F;
+  std::int32_t points = 0;
+  for (std::int32_t c = first; c < end; ++c) {
+    for (std::int32_t row = 0; row < grid.rows; ++row) {
+      squares_m2 += grids.cell(grid, c, row).square_sum_m2;
+      points += grids.cell(grid, c, row).points;
+    }
+  }
+  return squares_m2 / static_cast<float>(std::max(points, 1));
+}
+
 // Fronts of books, folds of curtains. Of narrow faces the shape is told elsewhere, and a wall up to
 // the ceiling is rough by what hangs on it.
 [[nodiscard]] bool is_rough(const Model& model, const WallSegment& s) noexcept {
   if (s.width_m() < kNarrowM || s.top_m > model.ceiling_z - kToCeilingM) return false;
   const float spread = model.planes[s.plane].spread2 / model.noise2;
-  return spread > kRough || (spread > kUneven && s.steps > kMostSteps);
+  return spread > kRough || is_uneven(spread, s.steps);
 }
 
 // Whether rays pass columns [first, end) in most rows between two heights.
@@ -238,6 +250,7 @@ void Walls::add_segment(Model& model, const PlaneGrids& grids, std::size_t plane
     segment.top_m = std::max(segment.top_m, grid.centre(p, c, column.top).z() + kCellM / 2);
   }
   segment.steps = share_of_steps(grids, grid, first, end);
+  segment.spread2 = spread2_of(grids, grid, first, end);
   model.segments.push_back(segment);
 }
 

@@ -4,6 +4,7 @@
 // right in furnished rooms, and what they are worth together, is measured by bench/accuracy.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -215,6 +216,47 @@ TEST(RobustRules, KeepsANarrowFaceWithinAWiderWallAndRemovesItAlone) {
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
   room.boxes.push_back({{3.0, -3.0, -1.2}, {3.2, -0.2, 1.6}});
   EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
+// A pier whose foot is hidden and whose top is out of view: 0.8 m of it are in view, in four cells.
+TEST(RobustRules, KeepsANarrowFaceThatIsSeenInFourCells) {
+  BoxRoom room;
+  room.boxes = {{{3.0, 1.0, -0.2}, {3.2, 1.5, 1.6}}, {{2.5, 1.0, -1.2}, {3.2, 1.5, -0.2}}};
+  EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
+// Its upper half lies 1.6 cm behind its lower half.
+TEST(RobustRules, AWallStandsSquareOnTheFloor) {
+  BoxRoom room;
+  room.walls = {{-3.0, -3.0, -1.2}, {3.016, 3.0, 1.6}};
+  room.boxes = {{{3.0, -3.0, -1.2}, {3.016, 3.0, -0.35}}};
+  RobustCut robust({}, test::kMostPoints);
+  (void)test::last_of(robust, room, {}, 2);
+  const auto is_the_wall = [](const robust::Plane& plane) { return plane.normal.x() < -0.9F; };
+  const std::vector<robust::Plane>& planes = robust.model().planes;
+  const auto wall = std::find_if(planes.begin(), planes.end(), is_the_wall);
+  ASSERT_NE(wall, planes.end());
+  for (const robust::Plane& plane : planes) {
+    if (plane.normal.z() < 0.99F) continue;
+    EXPECT_LT(std::abs(wall->normal.dot(plane.normal)), 0.003F);
+  }
+}
+
+// Two strips of a cell's width, and a wide flat part of the same plane in another place.
+TEST(RobustRules, ANarrowFaceIsJudgedByItsOwnSpread) {
+  for (const double set_back_m : {0.0, 0.03, 0.06}) {
+    BoxRoom room;
+    room.boxes = {{{2.0, 0.5, -1.2}, {2.3, 0.75, 0.9}},
+                  {{2.0 + set_back_m, 0.75, -1.2}, {2.3, 1.0, 0.9}},
+                  {{2.0, -2.7, -1.2}, {2.3, -2.2, 1.6}}};
+    Kept kept = cut(room, {}, 4);
+    for (int& box : kept.cloud.box) box = box == 1 ? 0 : box;
+    if (set_back_m > 0.0) {
+      EXPECT_LT(kept.share_of(0), kMostlyRemoved) << set_back_m;
+    } else {
+      EXPECT_GT(kept.share_of(0), kKept);
+    }
+  }
 }
 
 // In a narrow corridor, where ghosts are dense: their voxels beside a wall have its shape, so that
