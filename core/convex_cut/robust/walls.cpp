@@ -23,7 +23,8 @@ constexpr std::int32_t kLeastPairs = 7;
 constexpr std::int32_t kBeside = 2;
 constexpr float kMarginM = 0.2F;  // to floor and ceiling
 constexpr std::uint32_t kLeastCells = 4;
-constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
+constexpr std::uint32_t kLargeCells = 40;  // of a wall, in all
+constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
 
 // The share of neighbouring cells of columns [first, end) whose means differ: great where depths
 // change from book to book, small on a wall with a picture on it. 0 where too few are known.
@@ -102,6 +103,18 @@ constexpr std::int32_t kLeastSeen = 3;  // of a closed column among open ones
          is_passed(model, grids, s, s.end, s.end + kBeside);
 }
 
+// What is passed above, but stands in the plane of a larger wall, is that wall beneath a window.
+void accept_under_windows(Model& model) noexcept {
+  for (WallSegment& s : model.segments) {
+    if (s.accepted || s.width_m() < kNarrowM) continue;
+    std::uint32_t closed = 0;
+    for (const WallSegment& other : model.segments) {
+      if (other.plane == s.plane && other.open < other.closed) closed += other.closed;
+    }
+    s.accepted = closed >= kLargeCells && closed > s.open + s.closed;
+  }
+}
+
 }  // namespace
 
 Walls::Walls() { columns_.reserve(kMostColumns); }
@@ -113,6 +126,7 @@ void Walls::find(Model& model, PlaneGrids& grids, const RobustParameters& parame
     take_columns(model, grids, k);
     split(model, grids, k, parameters.free_space);
   }
+  accept_under_windows(model);
   if (parameters.furniture) {
     for (WallSegment& s : model.segments) {
       s.accepted = s.accepted && !is_rough(model, s) && !stands_free(model, grids, s);

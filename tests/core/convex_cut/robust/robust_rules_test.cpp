@@ -242,6 +242,18 @@ TEST(RobustRules, AWallStandsSquareOnTheFloor) {
   }
 }
 
+// The pane is seen above it; a cupboard hides what joins it to the rest of its wall.
+TEST(RobustRules, KeepsTheWallBeneathAWindowInThePlaneOfALargerWall) {
+  BoxRoom room;
+  room.walls = {{-3.0, -3.0, -1.2}, {3.25, 3.0, 1.6}};
+  room.boxes = {{{3.0, 1.2, -1.2}, {3.25, 3.0, 0.0}},
+                {{2.2, 0.3, -1.2}, {3.25, 1.2, 1.6}},
+                {{3.0, -3.0, -1.2}, {3.25, -2.0, 1.6}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kMostlyRemoved);
+  room.boxes.back().high.y() = 0.3;
+  EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
 // Two strips of a cell's width, and a wide flat part of the same plane in another place.
 TEST(RobustRules, ANarrowFaceIsJudgedByItsOwnSpread) {
   for (const double set_back_m : {0.0, 0.03, 0.06}) {
