@@ -51,7 +51,7 @@ StreamingCut::StreamingCut(const ConvexCutParameters& parameters, std::size_t ma
       kept_(parameters),
       keys_(max_points + kKernelPadding),
       counts_(max_points),
-      rest_(max_points),
+      rest_(max_points + 1),  // written before it is known that a point was taken already
       is_taken_(max_points),
       x_(max_points + kKernelPadding),
       y_(max_points + kKernelPadding),
@@ -220,7 +220,7 @@ CutStatus StreamingCut::finish(const CloudView& cloud, std::span<Label> labels) 
     if (group.done != group.count && !take_late(cloud, number)) left |= 1U << number;
   });
   for_each_group(left, [&](std::uint32_t number) { take_back(number); });
-  do_rest(cloud, left);
+  if (left != 0) do_rest(cloud, left);
   for_each_group(all & ~left, [&](std::uint32_t number) { decide(cloud, number); });
   for (std::size_t i = 0; i < size_; ++i) {
     labels[i] = counts_[i] != 0 ? Label::structure : Label::other;
