@@ -30,7 +30,7 @@ namespace convexcut {
 // One thread. RT after construction: no allocation, no lock, no system call.
 class StreamingCut {
  public:
-  // Allocates about 265 bytes a point, of which a revolution touches about half, and 5 kB a plane.
+  // Allocates about 290 bytes a point, of which a revolution touches about half, and 5 kB a plane.
   // Throws std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹, and
   // std::bad_alloc.
   StreamingCut(const ConvexCutParameters& parameters, std::size_t max_points);
