@@ -43,6 +43,11 @@ HWY_INLINE Float most_of(Float a, Float b) noexcept {
 #endif
 }
 
+// Of two vectors, with the bits of Eigen's, which adds three products as a + (b + c).
+HWY_INLINE Float dot(Float ax, Float ay, Float az, Float bx, Float by, Float bz) noexcept {
+  return hn::Add(hn::Mul(ax, bx), hn::Add(hn::Mul(ay, by), hn::Mul(az, bz)));
+}
+
 HWY_INLINE std::uint64_t to_bits(Mask mask) noexcept {
   std::uint64_t bits = 0;
   std::uint8_t bytes[8] = {};

@@ -14,6 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace convexcut::robust::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+namespace lanes_of = convexcut::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
 using Ints = hn::ScalableTag<std::int32_t>;
@@ -22,7 +23,7 @@ using Int = hn::Vec<Ints>;
 using Words = hn::ScalableTag<std::uint32_t>;
 using Word = hn::Vec<Words>;
 
-// One axis of RigPose::apply. Eigen adds three products as a + (b + c).
+// One axis of RigPose::apply.
 struct Axis {
   Float x, y, z, position, step;
 
@@ -34,7 +35,7 @@ struct Axis {
         step(hn::Set(Floats(), pose.step[axis])) {}
 
   HWY_INLINE Float of(Float px, Float py, Float pz, Float from_middle) const noexcept {
-    const Float turned = hn::Add(hn::Mul(x, px), hn::Add(hn::Mul(y, py), hn::Mul(z, pz)));
+    const Float turned = lanes_of::dot(x, y, z, px, py, pz);
     return hn::Add(hn::Add(turned, position), hn::Mul(from_middle, step));
   }
 };
@@ -116,9 +117,8 @@ HWY_INLINE Word near_planes(std::span<const Plane> planes, std::size_t first, Fl
   for (std::size_t k = first; k < std::min(planes.size(), first + 32); ++k) {
     const Plane& plane = planes[k];
     if (!plane.accepted) continue;
-    const Float along = hn::Add(hn::Mul(hn::Set(df, plane.normal.x()), x),
-                                hn::Add(hn::Mul(hn::Set(df, plane.normal.y()), y),
-                                        hn::Mul(hn::Set(df, plane.normal.z()), z)));
+    const Float along = lanes_of::dot(hn::Set(df, plane.normal.x()), hn::Set(df, plane.normal.y()),
+                                      hn::Set(df, plane.normal.z()), x, y, z);
     const auto is_near = hn::Le(hn::Abs(hn::Add(along, hn::Set(df, plane.offset))), gate);
     near = hn::Or(near, hn::IfThenElseZero(hn::RebindMask(dw, is_near),
                                            hn::Set(dw, std::uint32_t{1} << (k - first))));

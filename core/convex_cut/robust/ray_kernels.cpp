@@ -32,9 +32,8 @@ struct Direction {
 
   HWY_INLINE explicit Direction(const Vec3f& v) noexcept
       : x(hn::Set(Floats(), v.x())), y(hn::Set(Floats(), v.y())), z(hn::Set(Floats(), v.z())) {}
-  // Eigen adds three products as a + (b + c).
   HWY_INLINE Float dot(const Point& p) const noexcept {
-    return hn::Add(hn::Mul(x, p.x), hn::Add(hn::Mul(y, p.y), hn::Mul(z, p.z)));
+    return lanes_of::dot(x, y, z, p.x, p.y, p.z);
   }
 };
 

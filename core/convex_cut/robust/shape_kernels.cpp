@@ -77,6 +77,7 @@ struct Thirds {
 HWY_BEFORE_NAMESPACE();
 namespace convexcut::robust::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+namespace lanes_of = convexcut::HWY_NAMESPACE;
 
 using Floats = hn::CappedTag<float, kShapesAtOnce>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
@@ -96,9 +97,8 @@ struct Vector {
   Float x, y, z;
 };
 
-// Eigen adds three products as a + (b + c).
 HWY_INLINE Float dot(const Vector& a, const Vector& b) noexcept {
-  return hn::Add(hn::Mul(a.x, b.x), hn::Add(hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)));
+  return lanes_of::dot(a.x, a.y, a.z, b.x, b.y, b.z);
 }
 HWY_INLINE Vector cross(const Vector& a, const Vector& b) noexcept {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),

@@ -21,11 +21,6 @@ using Words = hn::ScalableTag<std::uint32_t>;
 using Float = hn::Vec<Floats>;
 using Mask = hn::Mask<Floats>;
 
-// Vec3f::dot; Eigen adds three products as a + (b + c).
-HWY_INLINE Float dot(Float ax, Float ay, Float az, Float bx, Float by, Float bz) noexcept {
-  return hn::Add(hn::Mul(ax, bx), hn::Add(hn::Mul(ay, by), hn::Mul(az, bz)));
-}
-
 // The tests of a plane on the surfels from i on.
 class PlaneTest {
  public:
@@ -38,15 +33,15 @@ class PlaneTest {
     for (std::size_t c = 0; c <= SurfelColumns::kBar; ++c) at_[c] = surfels.column(c);
   }
   HWY_INLINE Float height(std::size_t i) const noexcept {
-    return hn::Abs(hn::Add(dot(x_, y_, z_, load(SurfelColumns::kX, i), load(SurfelColumns::kY, i),
-                               load(SurfelColumns::kZ, i)),
+    return hn::Abs(hn::Add(lanes_of::dot(x_, y_, z_, load(SurfelColumns::kX, i),
+                                         load(SurfelColumns::kY, i), load(SurfelColumns::kZ, i)),
                            offset_));
   }
   HWY_INLINE Mask is_near(std::size_t i) const noexcept { return hn::Lt(height(i), gate_); }
   HWY_INLINE Mask agrees(std::size_t i) const noexcept {
     const Float bar = load(SurfelColumns::kBar, i);
-    const Float cosine = dot(x_, y_, z_, load(SurfelColumns::kU, i), load(SurfelColumns::kV, i),
-                             load(SurfelColumns::kW, i));
+    const Float cosine = lanes_of::dot(x_, y_, z_, load(SurfelColumns::kU, i),
+                                       load(SurfelColumns::kV, i), load(SurfelColumns::kW, i));
     return hn::And(hn::Le(height(i), gate_), hn::Gt(hn::CopySign(cosine, bar), bar));
   }
 
