@@ -208,6 +208,25 @@ TEST(RobustRules, RemovesTheBackBetweenShelvesThatAreFarApart) {
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
+// Shelves along another wall end 0.2 m before it: they are square before what is seen past them.
+TEST(RobustRules, KeepsTheWallThatIsSeenPastTheEndOfShelves) {
+  BoxRoom room;
+  room.walls = {{-4.0, -3.0, -1.2}, {2.5, 3.0, 1.6}};
+  room.boxes = {{{2.49, 2.0, -1.2}, {2.5, 3.0, 1.6}}};
+  for (const double z : {-1.15, -0.8, -0.45, -0.1, 0.25}) {
+    room.boxes.push_back({{0.5, 2.1, z}, {2.3, 3.0, z + 0.04}});
+  }
+  EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
+// The wall lies at a border of voxels, which cuts the noise of wall and board in two.
+TEST(RobustRules, RemovesABoardAtABorderOfVoxels) {
+  BoxRoom room;
+  room.walls = {{-4.1, -3.1, -1.2}, {2.4, 3.1, 1.6}};
+  room.boxes = {{{2.37, -0.7, -0.5}, {2.4, 0.7, 0.7}}};
+  EXPECT_LT(cut(room, {}, 6).share_of(0), kRemoved);
+}
+
 // A pier over a cupboard, of which 0.6 m are in view, beside openings to what is behind.
 TEST(RobustRules, KeepsANarrowFaceWithinAWiderWallAndRemovesItAlone) {
   BoxRoom room;
