@@ -28,26 +28,40 @@ constexpr std::int32_t kReach = 2;  // cells: the distance of shelves
   return false;
 }
 
-void mark_before(const Model& model, PlaneGrids& grids, const Vec3f& p,
+[[nodiscard]] Cell* cell_at(PlaneGrids& grids, std::size_t plane, const Vec3f& p) noexcept {
+  const PlaneGrid& grid = grids.grid(plane);
+  const std::int32_t column = grid.column_of(p);
+  const std::int32_t row = grid.row_of(p);
+  return grid.holds(column, row) ? &grids.cell(grid, column, row) : nullptr;
+}
+
+// The cell square behind p, and the one that p hides from where it was seen.
+void mark_before(const Model& model, PlaneGrids& grids, const Surfel& surfel,
                  std::uint64_t near) noexcept {
+  const Vec3f& p = surfel.mean;
   for (; near != 0; near &= near - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(near));
     const Plane& plane = model.planes[k];
     const float height = plane.height_of(p);
     if (!plane.vertical || height < kNearestM || height > kFarthestM) continue;
-    const PlaneGrid& grid = grids.grid(k);
-    const std::int32_t column = grid.column_of(p);
-    const std::int32_t row = grid.row_of(p);
-    if (grid.holds(column, row)) grids.cell(grid, column, row).before = true;
+    if (Cell* cell = cell_at(grids, k, p)) cell->before = true;
+    const float from = plane.height_of(surfel.origin);
+    if (from < height + kNearestM) continue;
+    const Vec3f hidden = surfel.origin + (p - surfel.origin) * (from / (from - height));
+    if (Cell* cell = cell_at(grids, k, hidden)) cell->hidden = true;
   }
 }
 
-[[nodiscard]] bool any_before(const PlaneGrids& grids, const PlaneGrid& grid, std::int32_t column,
-                              std::int32_t first, std::int32_t end) noexcept {
-  for (std::int32_t row = first; row < end; ++row) {
-    if (grid.holds(column, row) && grids.cell(grid, column, row).before) return true;
-  }
-  return false;
+// Whether cells within reach above and below are so.
+[[nodiscard]] bool is_between(const PlaneGrids& grids, const PlaneGrid& grid, std::int32_t column,
+                              std::int32_t row, bool Cell::*so) noexcept {
+  const auto any = [&](std::int32_t first, std::int32_t end) {
+    for (std::int32_t r = first; r < end; ++r) {
+      if (grid.holds(column, r) && grids.cell(grid, column, r).*so) return true;
+    }
+    return false;
+  };
+  return any(row - kReach, row) && any(row + 1, row + 1 + kReach);
 }
 
 }  // namespace
@@ -59,9 +73,9 @@ void mark_backs(const Model& model, PlaneGrids& grids) noexcept {
     find_planes({rays.column(3) + begin, rays.column(4) + begin, rays.column(5) + begin},
                 model.planes, kFarthestM, near);
     for (std::size_t i = 0; i < std::min(kPointsAtOnce, rays.size() - begin); ++i) {
-      const Vec3f& p = model.surfels[rays.surfel(begin + i)].mean;
-      if (near[i] != 0 && !is_on_structure(model, grids, p, near[i])) {
-        mark_before(model, grids, p, near[i]);
+      const Surfel& surfel = model.surfels[rays.surfel(begin + i)];
+      if (near[i] != 0 && !is_on_structure(model, grids, surfel.mean, near[i])) {
+        mark_before(model, grids, surfel, near[i]);
       }
     }
   }
@@ -71,8 +85,9 @@ void mark_backs(const Model& model, PlaneGrids& grids) noexcept {
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       for (std::int32_t column = 0; column < grid.columns; ++column) {
         Cell& cell = grids.cell(grid, column, row);
-        cell.enclosed = any_before(grids, grid, column, row - kReach, row) &&
-                        any_before(grids, grid, column, row + 1, row + 1 + kReach);
+        // A wall that was seen past the end of a bookcase has things square before it as well.
+        cell.enclosed = is_between(grids, grid, column, row, &Cell::before) &&
+                        (!cell.structure || is_between(grids, grid, column, row, &Cell::hidden));
       }
     }
   }

@@ -34,6 +34,7 @@ struct Cell {
   float layer_m = 0.0F;        // how far the fixture that covers the cell is off the wall; 0: none
   bool structure = false;
   bool before = false;    // something is seen close before it
+  bool hidden = false;    // the same, on the way of the lidar's rays to it
   bool enclosed = false;  // that above and below: the back of a shelf
   bool visited = false;
 

@@ -296,13 +296,38 @@ RobustCut::Near RobustCut::near_of(std::int32_t in_window, std::uint64_t planes)
   return near;
 }
 
+// Of a plane's points here, over it: of the voxel and those before and behind it, since a border of
+// voxels may run through the noise of a wall, or between it and what hangs on it.
+float RobustCut::mean_height(const Surfel& surfel, std::size_t plane) const noexcept {
+  const Plane& p = model_.planes[plane];
+  float points = 0.0F;
+  float sum = 0.0F;
+  const auto add = [&](const Surfel& s) {
+    points += static_cast<float>(s.points);
+    sum += static_cast<float>(s.points) * p.height_of(s.mean);
+  };
+  add(surfel);
+  Eigen::Index axis = 0;
+  p.normal.cwiseAbs().maxCoeff(&axis);
+  for (const float step : {-robust::kVoxelM, robust::kVoxelM}) {
+    Vec3f at = surfel.mean;
+    at[axis] += step;
+    const std::int32_t voxel = window_.map().find(robust::key_of(robust::place_of(at)));
+    if (voxel == VoxelMap::kNone) continue;
+    const Surfel& other = model_.surfels[static_cast<std::size_t>(voxel)];
+    if (other.plane == static_cast<std::int32_t>(plane)) add(other);
+  }
+  return sum / points;
+}
+
 // On a layer's cell or beside one, and nearer to the layer than to the wall.
 bool RobustCut::is_fixture(const Surfel& surfel, std::size_t plane) const noexcept {
   const Plane& wall = model_.planes[plane];
   if (!parameters_.fixtures || !wall.vertical) return false;
-  const float off_m = wall.height_of(surfel.mean) - wall.face_m;
   const float layer_m = grids_.layer_near(plane, surfel.mean);
-  return layer_m != 0.0F && off_m * layer_m > 0.0F && std::abs(off_m) > std::abs(layer_m) / 2;
+  if (layer_m == 0.0F) return false;
+  const float off_m = mean_height(surfel, plane) - wall.face_m;
+  return off_m * layer_m > 0.0F && std::abs(off_m) > std::abs(layer_m) / 2;
 }
 
 bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept {

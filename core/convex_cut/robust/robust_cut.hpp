@@ -76,6 +76,7 @@ class RobustCut {
   void find_structure() noexcept;
   void take_near() noexcept;
   [[nodiscard]] Near near_of(std::int32_t in_window, std::uint64_t planes) const noexcept;
+  [[nodiscard]] float mean_height(const robust::Surfel& surfel, std::size_t plane) const noexcept;
   [[nodiscard]] bool is_fixture(const robust::Surfel& surfel, std::size_t plane) const noexcept;
   [[nodiscard]] bool is_structure(const Vec3f& p, std::int32_t voxel) const noexcept;
 

@@ -208,6 +208,28 @@ TEST(RobustRules, RemovesTheBackBetweenShelvesThatAreFarApart) {
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
+// Shelves along another wall end 0.2 m before it: they are square before what is seen past them.
+TEST(RobustRules, KeepsTheWallThatIsSeenPastTheEndOfShelves) {
+  BoxRoom room;
+  room.walls = {{-4.0, -3.0, -1.2}, {2.5, 3.0, 1.6}};
+  room.boxes = {{{2.49, 2.0, -1.2}, {2.5, 3.0, 1.6}}};
+  for (const double z : {-1.15, -0.8, -0.45, -0.1, 0.25}) {
+    room.boxes.push_back({{0.5, 2.1, z}, {2.3, 3.0, z + 0.04}});
+  }
+  EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
+// A border of voxels runs between a board and its wall, and through the noise of both. The second
+// box is what of the wall is beside the board.
+TEST(RobustRules, RemovesABoardAtABorderOfVoxelsAndKeepsTheWallBesideIt) {
+  BoxRoom room;
+  room.walls = {{-4.1, -3.1, -1.2}, {2.41, 3.1, 1.6}};
+  room.boxes = {{{2.39, -0.7, -0.5}, {2.41, 0.7, 0.7}}, {{2.4099, -1.2, -0.5}, {2.41, -0.75, 0.7}}};
+  const Kept kept = cut(room, {}, 6);
+  EXPECT_LT(kept.share_of(0), kRemoved);
+  EXPECT_GT(kept.share_of(1), kKept);
+}
+
 // A pier over a cupboard, of which 0.6 m are in view, beside openings to what is behind.
 TEST(RobustRules, KeepsANarrowFaceWithinAWiderWallAndRemovesItAlone) {
   BoxRoom room;
