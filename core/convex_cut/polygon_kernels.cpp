@@ -110,7 +110,7 @@ HWY_INLINE std::size_t copy_facing(const PolygonEdges& edges, float least_u, flo
 // Two vectors of members at once: an edge is loaded once for both.
 struct Pair {
   // Written out: GCC compiles an implicit one without NEON's options.
-  HWY_INLINE Pair() noexcept {}
+  HWY_INLINE Pair() noexcept {}  // NOLINT(modernize-use-equals-default)
   Float u0, u1;
   Float z0, z1;
   Float depth0, depth1;

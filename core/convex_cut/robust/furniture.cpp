@@ -20,8 +20,10 @@ constexpr float kDeepestRecessM = 0.35F;  // of a window
 constexpr float kSillM = 0.3F;
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
-constexpr float kLeastHeightM = 0.9F;        // of a narrow face: four cells
-constexpr float kLeastPassedHeightM = 1.1F;  // of one that rays pass in places: five
+constexpr float kLeastHeightM = 1.1F;      // of a narrow face: five cells
+constexpr float kLeastFlatHeightM = 0.9F;  // of a flat one: four
+constexpr float kFlat = 1.2F;              // spread², relative to the noise²
+constexpr float kFewSteps = 0.15F;
 constexpr float kTouchM = 0.4F;
 constexpr float kSameTopM = 0.6F;
 constexpr float kRounder = 1.7F;   // spread², relative to the noise²
@@ -148,6 +150,11 @@ struct PlaneExtent {
   });
 }
 
+// As the faces of pillars are, and nothing passes it.
+[[nodiscard]] bool is_flat(const Model& model, const WallSegment& face) noexcept {
+  return face.open == 0 && face.spread2 <= kFlat * model.noise2 && face.steps <= kFewSteps;
+}
+
 }  // namespace
 
 void reject_furniture(Model& model) noexcept {
@@ -173,7 +180,7 @@ void reject_furniture(Model& model) noexcept {
     if (!s.accepted || !s.narrow || is_on_wider(model, s)) continue;
     const bool round =
         s.spread2 > kRounder * model.noise2 || is_uneven(s.spread2 / model.noise2, s.steps);
-    const float least_m = s.open > 0 ? kLeastPassedHeightM : kLeastHeightM;
+    const float least_m = is_flat(model, s) ? kLeastFlatHeightM : kLeastHeightM;
     if (round || s.top_m - s.bottom_m < least_m || is_side_of_rejected(model, s)) {
       s.accepted = false;
     }
