@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,24 @@ constexpr Degrees kStage{60.0};  // the stage turns that far in a second
 constexpr int kSeeds = 3;
 constexpr std::array<std::string_view, 3> kFewScenes{"office", "l-shape", "corridor"};
 
+// Between 0 and 1, evenly: the fractional part of multiples of an irrational number.
+[[nodiscard]] double evenly(std::uint64_t seed, double irrational) {
+  const double multiple = static_cast<double>(seed) * irrational;
+  return multiple - std::floor(multiple);
+}
+
+// A building's walls are neither along an IMU's axes nor at round distances from a rig, as a
+// scene's would be, and what divides space into cells may not live on that: both by the seed.
+void place_by_seed(Run& run, bool travels) {
+  constexpr double kQuarterTurnDeg = 90.0;
+  constexpr double kOffsetM = 0.2;
+  const std::uint64_t seed = run.options.simulation.seed;
+  run.heading = Degrees{kQuarterTurnDeg * evenly(seed, 0.6180339887)};
+  const Vec3 offset_m{kOffsetM * (evenly(seed, 0.7548776662) - 0.5),
+                      kOffsetM * (evenly(seed, 0.5698402910) - 0.5), 0.0};
+  run.options.simulation.rig = simulation::planned_rig(Scene::open(run.scene), travels, offset_m);
+}
+
 [[nodiscard]] Run make_run(std::string experiment, std::string_view scene, double tilt_deg,
                            std::uint64_t seed, double seconds) {
   Run run;
@@ -29,7 +48,7 @@ constexpr std::array<std::string_view, 3> kFewScenes{"office", "l-shape", "corri
   simulation::SimulationOptions& options = run.options.simulation;
   options.seed = seed;
   options.length = std::chrono::milliseconds{static_cast<std::int64_t>(seconds * 1e3)};
-  options.rig = simulation::planned_rig(Scene::open(std::string(scene)), false);
+  place_by_seed(run, false);
   options.rig.tilt = Degrees{tilt_deg};
   options.rig.rotation_per_second = kStage;
   return run;
@@ -113,7 +132,7 @@ constexpr std::string_view kMirrorScene = "bench/accuracy/mirror.toml";
   for (int i = 0; i < (o.quick ? 1 : kDataSets); ++i) {
     Run run = make_run("moving", "glass-offices", 30.0,
                        o.first_seed + static_cast<std::uint64_t>(i), o.quick ? 2.5 : 10.5);
-    run.options.simulation.rig = simulation::planned_rig(Scene::open(run.scene), true);
+    place_by_seed(run, true);
     run.options.simulation.rig.tilt = Degrees{30.0};
     run.options.simulation.rig.rotation_per_second = kStage;
     run.options.simulation.rig.yaw = Degrees{25.0 * i};

@@ -99,6 +99,16 @@ struct Contestant {
   }
 };
 
+// What an IMU makes of a building that is askew to its axes.
+void turn(LevelledScan& scan, const Quaternion& q) {
+  const Eigen::Matrix3f r = q.toRotationMatrix().cast<float>();
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Vec3f p = r * Vec3f(scan.x[i], scan.y[i], scan.z[i]);
+    scan.x[i] = p.x();
+    scan.y[i] = p.y();
+  }
+}
+
 }  // namespace
 
 std::vector<Outcome> outcomes_of(const Run& run, const std::vector<NamedMethod>& methods) {
@@ -113,12 +123,14 @@ std::vector<Outcome> outcomes_of(const Run& run, const std::vector<NamedMethod>&
     contestant.outcome.method = method.name;
     contestants.push_back(std::move(contestant));
   }
+  const Quaternion q_heading = to_quaternion({{0.0}, {0.0}, run.heading});
   PatchJudge patch_judge;
   MergedCloud cloud;
   LabelledScan scan;
   std::size_t clouds = 0;
   for (std::size_t index = 0; index < run.most_scans && scans.next(scan); ++index) {
-    const Vec3 position = scans.pose_at(scan.scan.stamp).position_world;
+    turn(scan.scan, q_heading);
+    const Vec3 position = q_heading * scans.pose_at(scan.scan.stamp).position_world;
     cloud.add(scan, position);
     for (Contestant& c : contestants) c.label(scan, position);
     if ((index + 1) % run.merge != 0) continue;

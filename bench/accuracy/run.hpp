@@ -18,7 +18,8 @@ struct Run {
   std::string scene;
   int people = -1;  // instead of the scene's; −1: as the scene has it
   double tilt_deg = 0.0;
-  std::string variant;  // what is special, for the report
+  Degrees heading{0.0};  // of the building's axes in frame level
+  std::string variant;   // what is special, for the report
   simulation::LabelledScanOptions options{};
   std::size_t judge_every = 1;          // scans
   std::size_t judge_patches_every = 0;  // scans; 0: never

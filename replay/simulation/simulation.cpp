@@ -16,13 +16,17 @@ void fill(DataBlock& block, const SimulatedFiring& firing, std::size_t echo) {
 
 }  // namespace
 
-RigOptions planned_rig(const Scene& scene, bool travels) {
+RigOptions planned_rig(const Scene& scene, bool travels, const Vec3& aside_m) {
   const RigPlan& plan = scene.rig();
   RigOptions rig;
   rig.yaw = plan.yaw;
-  rig.path = travels && !plan.path.empty()
-                 ? RigPath(plan.path.way_points(), plan.path.speed_m_s(), plan.path.end())
-                 : RigPath({plan.position}, 1.0, PathEnd::stop);
+  if (travels && !plan.path.empty()) {
+    std::vector<Vec3> way_points = plan.path.way_points();
+    for (Vec3& point : way_points) point += aside_m;
+    rig.path = RigPath(std::move(way_points), plan.path.speed_m_s(), plan.path.end());
+  } else {
+    rig.path = RigPath({plan.position + aside_m}, 1.0, PathEnd::stop);
+  }
   return rig;
 }
 

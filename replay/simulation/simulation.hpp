@@ -40,8 +40,10 @@ struct SimulationOptions {
   }
 };
 
-// A rig as the scene plans it: where it stands, and its path when `travels` (none: it stands).
-[[nodiscard]] RigOptions planned_rig(const Scene& scene, bool travels);
+// A rig as the scene plans it: where it stands, and its path when `travels` (none: it stands); all
+// of it so much aside in the world.
+[[nodiscard]] RigOptions planned_rig(const Scene& scene, bool travels,
+                                     const Vec3& aside_m = Vec3::Zero());
 
 class LidarStream {
  public:

@@ -31,4 +31,9 @@ struct RigPose {
 // most surfaces are square or along, where it explains clearly more than z does. At most 12°.
 [[nodiscard]] Mat3f upright_correction(const VoxelMap& revolution) noexcept;
 
+// The rotation about the vertical that lays most walls along x and y, by at most 45°: voxels that
+// walls cross askew hold less of them, and that a room is askew to the IMU's axes is chance.
+[[nodiscard]] Mat3f wall_correction(const VoxelMap& revolution,
+                                    const Mat3f& r_upright_from_level) noexcept;
+
 }  // namespace convexcut::robust

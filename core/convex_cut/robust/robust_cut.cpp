@@ -11,6 +11,7 @@
 #include "core/convex_cut/robust/backs.hpp"
 #include "core/convex_cut/robust/point_kernels.hpp"
 #include "core/convex_cut/robust/shape.hpp"
+#include "core/convex_cut/robust/spread.hpp"
 
 namespace convexcut {
 namespace {
@@ -29,12 +30,10 @@ constexpr float kUnknownMotionM = 0.10F;  // in a revolution, one sigma
 constexpr float kKnownMotionM = 0.02F;
 constexpr float kLeastFilled = 0.018F;  // of what a surface across the beams would return
 constexpr float kViewSr = 4.5F;         // steradians, of an HDL-32E
-constexpr float kEdgeOnM = 0.10F;       // nearer to the lidar a plane is seen along itself
 constexpr float kLeastOfLastShare = 0.5F;
 constexpr float kStillM = 0.02F;  // a step below this is none
 constexpr float kLasting = 0.5F;  // of a step that is not given: where no plane holds it, it ends
-constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
-constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
+constexpr float kHalfDiagonal = 0.87F;  // of a voxel, relative to its edge
 
 [[nodiscard]] const RobustParameters& checked(const RobustParameters& parameters) {
   if (!is_valid(parameters)) throw std::invalid_argument("robust parameters out of range");
@@ -67,51 +66,6 @@ constexpr float kHalfDiagonal = 0.87F;     // of a voxel, relative to its edge
   if (points * range2 > kSurely * static_cast<float>(points_of_revolution)) return true;
   const float range_m = std::max(std::sqrt(range2), robust::kVoxelM);
   return points >= least_points(range_m, points_of_revolution);
-}
-
-// m², of a voxel's points across a plane, about their mean.
-[[nodiscard]] float spread2_across(const Voxel& voxel, const Plane& plane) noexcept {
-  return plane.normal.dot(robust::covariance(voxel.moments) * plane.normal);
-}
-
-// Of each plane; and what the sensor's noise is, by the largest ones.
-void measure_spread(robust::Model& model, std::span<const Voxel> voxels) noexcept {
-  std::array<double, robust::PlaneSearch::kMostPlanes> points{};
-  std::array<double, robust::PlaneSearch::kMostPlanes> squares{};
-  std::array<std::uint32_t, robust::PlaneSearch::kMostPlanes> along{};  // surfels
-  for (std::size_t i = 0; i < model.surfels.size(); ++i) {
-    Surfel& surfel = model.surfels[i];
-    if (surfel.plane == robust::kNoPlane) continue;
-    const auto k = static_cast<std::size_t>(surfel.plane);
-    const Plane& plane = model.planes[k];
-    const float height = plane.height_of(surfel.mean);
-    along.at(k) += std::abs(plane.height_of(surfel.origin)) < kEdgeOnM ? 1U : 0U;
-    surfel.spread2 = spread2_across(voxels[i], plane) + height * height;
-    points.at(k) += surfel.points;
-    squares.at(k) += static_cast<double>(surfel.points) * static_cast<double>(surfel.spread2);
-  }
-  for (std::size_t k = 0; k < model.planes.size(); ++k) {
-    model.planes[k].edge_on = 2 * along.at(k) > model.planes[k].surfels;
-    model.planes[k].spread2 = static_cast<float>(squares.at(k) / std::max(points.at(k), 1.0));
-  }
-  std::array<const Plane*, kLargestPlanes> largest{};
-  for (const Plane& plane : model.planes) {
-    const Plane* candidate = &plane;
-    for (const Plane*& at : largest) {
-      if (at == nullptr || at->surfels < candidate->surfels) std::swap(at, candidate);
-      if (candidate == nullptr) break;
-    }
-  }
-  // The noise is along the beam: surfaces that are met at a grazing angle show less of it, and
-  // those with things on them more. So neither the least nor the greatest.
-  std::array<float, kLargestPlanes> spreads{};
-  spreads.fill(std::numeric_limits<float>::max());
-  std::size_t count = 0;
-  for (const Plane* plane : largest) {
-    if (plane != nullptr) spreads.at(count++) = plane->spread2;
-  }
-  std::sort(spreads.begin(), spreads.end());
-  model.noise2 = count > 0 ? spreads.at(count / 2) : robust::Model{}.noise2;
 }
 
 }  // namespace
@@ -200,7 +154,8 @@ void RobustCut::place(const CloudView& cloud, const std::optional<Vec3>& positio
     if (parameters_.upright) {
       fill_voxels(cloud);
       window_.add(revolution_, pose_.position, 1);
-      pose_.r_window_from_level = robust::upright_correction(window_.map());
+      const robust::Mat3f upright = robust::upright_correction(window_.map());
+      pose_.r_window_from_level = robust::wall_correction(window_.map(), upright) * upright;
       window_.clear();
     }
   }
@@ -252,7 +207,7 @@ void RobustCut::take_surfels() noexcept {
 
 void RobustCut::find_structure() noexcept {
   plane_search_.run(model_, window_.origin());
-  measure_spread(model_, window_.map().voxels());
+  robust::measure_spread(model_, window_.map().voxels());
   grids_.build(model_);
   flat_surfaces_.find(model_, grids_, window_.origin(), parameters_.free_space);
   walls_.find(model_, grids_, parameters_);
