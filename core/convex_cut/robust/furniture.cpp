@@ -32,6 +32,12 @@ constexpr float kLeastBeamM = 1.6F;
 constexpr float kTallestLampM = 1.0F;
 constexpr int kPasses = 2;  // fronts before fronts
 
+// Whether depths change from cell to cell, as they do in clothes. spread: the spread² about the
+// plane, relative to the noise²; steps: as WallSegment has them.
+[[nodiscard]] constexpr bool is_uneven(float spread, float steps) noexcept {
+  return spread > 1.3F && steps > 0.3F;
+}
+
 struct PlaneExtent {
   float begin_m = 1e9F, end_m = -1e9F;
   void add(const WallSegment& s) noexcept {

@@ -5,12 +5,6 @@
 
 namespace convexcut::robust {
 
-// Whether depths change from cell to cell, as they do from book to book and in clothes. spread: the
-// spread² about the plane, relative to the noise²; steps: as WallSegment has them.
-[[nodiscard]] constexpr bool is_uneven(float spread, float steps) noexcept {
-  return spread > 1.3F && steps > 0.3F;
-}
-
 // Takes back accepted segments of model.segments that are furniture, fixtures or people:
 // - a front close before a parallel wall that goes on beside or above it, unless it reaches the
 //   ceiling (a wardrobe whose top is out of view; a board on the wall);

@@ -16,7 +16,11 @@ constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
 constexpr float kToCeilingM = 0.35F;
 constexpr float kWidestScreenM = 2.5F;
 constexpr float kBelowCeilingM = 0.45F;
-constexpr float kRough = 2.5F;  // spread², relative to the noise²
+constexpr float kRough = 2.5F;           // spread², relative to the noise²
+constexpr float kRoughWhereEven = 5.0F;  // a long wall with things on it
+constexpr float kFewSteps = 0.2F;        // share of neighbouring cells
+constexpr float kMostSteps = 0.25F;
+constexpr float kUneven = 1.0F;  // spread², where there are more
 constexpr float kStepM = 0.015F;
 constexpr std::int32_t kLeastPoints = 8;  // of a cell, for its mean
 constexpr std::int32_t kLeastPairs = 7;
@@ -66,7 +70,8 @@ constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
 [[nodiscard]] bool is_rough(const Model& model, const WallSegment& s) noexcept {
   if (s.width_m() < kNarrowM || s.top_m > model.ceiling_z - kToCeilingM) return false;
   const float spread = model.planes[s.plane].spread2 / model.noise2;
-  return spread > kRough || is_uneven(spread, s.steps);
+  const float rough = s.steps > 0.0F && s.steps < kFewSteps ? kRoughWhereEven : kRough;
+  return spread > rough || (spread > kUneven && s.steps > kMostSteps);
 }
 
 // Whether rays pass columns [first, end) in most rows between two heights.
@@ -88,6 +93,16 @@ constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
   return 2 * passed > rows;
 }
 
+[[nodiscard]] std::int32_t count_seen(const PlaneGrids& grids, std::size_t plane,
+                                      std::int32_t column) noexcept {
+  const PlaneGrid& grid = grids.grid(plane);
+  std::int32_t count = 0;
+  for (std::int32_t row = 0; row < grid.rows; ++row) {
+    count += grids.cell(grid, column, row).seen > 0 ? 1 : 0;
+  }
+  return count;
+}
+
 // Whether rays pass on both sides of what ends below the ceiling: a board on wheels, a screen.
 [[nodiscard]] bool stands_free(const Model& model, const PlaneGrids& grids,
                                const WallSegment& s) noexcept {
@@ -99,8 +114,14 @@ constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
       std::any_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& other) {
         return &other != &s && other.plane == s.plane && other.closed > s.closed;
       });
-  return !on_a_wall && is_passed(model, grids, s, s.first - kBeside, s.first) &&
-         is_passed(model, grids, s, s.end, s.end + kBeside);
+  if (on_a_wall) return false;
+  // A chair's leg in the board's plane is no part of it.
+  std::int32_t first = s.first;
+  std::int32_t end = s.end;
+  while (first < end && count_seen(grids, s.plane, first) < kLeastSeen) ++first;
+  while (first < end && count_seen(grids, s.plane, end - 1) < kLeastSeen) --end;
+  return is_passed(model, grids, s, first - kBeside, first) &&
+         is_passed(model, grids, s, end, end + kBeside);
 }
 
 // What is passed above, but stands in the plane of a larger wall, is that wall beneath a window.

@@ -89,6 +89,59 @@ TEST(RobustRules, AWallUpToTheCeilingMayBeRough) {
   EXPECT_GT(kept_of_blocks(0.3, uneven_m), 0.5);  // some blocks are fixtures on it
 }
 
+TEST(RobustRules, KeepsALongWallWithThingsOnIt) {
+  BoxRoom room;
+  room.walls = {{-6.0, -2.0, -1.2}, {6.0, 2.4, 1.6}};
+  for (int i = 0; i < 5; ++i) {
+    const double x = -4.6 + 2.0 * i;
+    room.boxes.push_back({{x, -2.0, -1.2}, {x + 0.6, -1.94, 1.6}});
+  }
+  EXPECT_GT(cut(room, {}).share_of(test::kWalls), 0.95);
+}
+
+// A chair's leg in the board's plane; what is beside that is hidden.
+TEST(RobustRules, RemovesABoardThatStandsFreeBesideALeg) {
+  BoxRoom room;
+  room.boxes = {{{1.8, -0.8, -1.2}, {1.85, 0.8, 0.7}},
+                {{1.8, 1.2, -1.2}, {1.85, 1.4, -0.6}},
+                {{0.9, 0.72, -1.2}, {1.0, 1.3, 1.6}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
+}
+
+TEST(RobustRules, TheLatticeLiesAlongTheWalls) {
+  test::LabelledCloud seen = test::revolution_in({}, {});
+  const Eigen::AngleAxisf turn(0.3F, Vec3f::UnitZ());
+  for (std::size_t i = 0; i < seen.cloud.size(); ++i) {
+    const Vec3f p = turn * Vec3f(seen.cloud.x[i], seen.cloud.y[i], seen.cloud.z[i]);
+    seen.cloud.x[i] = p.x();
+    seen.cloud.y[i] = p.y();
+  }
+  std::vector<Label> labels(seen.cloud.size());
+  RobustCut robust({}, test::kMostPoints);
+  ASSERT_EQ(robust.label(seen.cloud.view(), labels), CutStatus::ok);
+  int walls = 0;
+  for (const robust::Plane& plane : robust.model().planes) {
+    if (!plane.vertical || plane.surfels < 50) continue;
+    ++walls;
+    EXPECT_LT(std::min(std::abs(plane.normal.x()), std::abs(plane.normal.y())), 0.02F);
+  }
+  EXPECT_EQ(walls, 4);
+}
+
+// Books on the walls are no noise of the sensor, and a floor that is met at an angle shows less.
+TEST(RobustRules, TheSensorsNoiseIsToldAlongTheBeam) {
+  BoxRoom room;
+  for (int i = 0; i < 40; ++i) {
+    const double y = -3.0 + 0.15 * i;
+    const double deep_m = 0.04 * (i % 3);
+    room.boxes.push_back({{3.5 + deep_m, y, -1.2}, {4.0, y + 0.15, 1.6}});
+    room.boxes.push_back({{-4.0, y, -1.2}, {-3.5 - deep_m, y + 0.15, 1.6}});
+  }
+  RobustCut robust({}, test::kMostPoints);
+  (void)test::last_of(robust, room, {}, 1);
+  EXPECT_NEAR(std::sqrt(robust.model().noise2), 0.02F, 0.003F);
+}
+
 // Rings of the lidar that lie in one plane with it, as a level one does whatever it meets.
 TEST(RobustRules, WhatIsSeenAlongItselfIsNoSurface) {
   constexpr int kDisc = 0;
