@@ -11,9 +11,9 @@
 
 namespace convexcut::bench {
 
-// Takes the largest plane's points (within 5 cm) out of the cloud, again and again, until a tenth of
-// the points is left or ten planes are found. PCL's own copy of the cloud is made here, not in what
-// is measured. Nothing where the program was built without PCL.
+// Takes the largest plane's points (within 5 cm) out of the cloud, again and again, until a tenth
+// of the points is left or ten planes are found. PCL's own copy of the cloud is made here, not in
+// what is measured. Nothing where the program was built without PCL.
 [[nodiscard]] std::optional<std::function<void()>> pcl_planes(const CloudView& cloud);
 
 }  // namespace convexcut::bench
