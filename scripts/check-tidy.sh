@@ -12,6 +12,7 @@ if [ "${1:-}" = analyze ]; then
 fi
 # Commands of its own: those of the builds have headers that another compiler precompiled.
 cmake --preset release -B build/tidy -DCONVEXCUT_UNITY=OFF -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ >/dev/null
+cmake --build build/tidy --target convexcut_ros2_idl_generate >/dev/null  # a header
 if [ $# != 0 ]; then
   printf '%s\n' "$@"
 else
