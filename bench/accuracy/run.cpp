@@ -129,10 +129,10 @@ std::vector<Outcome> outcomes_of(const Run& run, const std::vector<NamedMethod>&
   LabelledScan scan;
   std::size_t clouds = 0;
   for (std::size_t index = 0; index < run.most_scans && scans.next(scan); ++index) {
+    const Vec3 position = scans.pose_at(scan.scan.stamp).position_world;
+    cloud.add(scan, position);  // what is judged is as the building is
     turn(scan.scan, q_heading);
-    const Vec3 position = q_heading * scans.pose_at(scan.scan.stamp).position_world;
-    cloud.add(scan, position);
-    for (Contestant& c : contestants) c.label(scan, position);
+    for (Contestant& c : contestants) c.label(scan, q_heading * position);
     if ((index + 1) % run.merge != 0) continue;
     const bool patches = run.judge_patches_every > 0 && clouds % run.judge_patches_every == 0;
     if (clouds % run.judge_every == 0) {

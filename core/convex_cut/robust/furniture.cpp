@@ -20,7 +20,9 @@ constexpr float kDeepestRecessM = 0.35F;  // of a window
 constexpr float kSillM = 0.3F;
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
-constexpr float kLeastHeightM = 1.1F;      // of a narrow face: five cells
+constexpr float kLeastHeightM = 1.1F;  // of a narrow face: five cells
+constexpr float kLowM =
+    1.0F;  // over the floor: the side of a desk, where it is seen between other things
 constexpr float kLeastFlatHeightM = 0.9F;  // of a flat one: four
 constexpr float kFlat = 1.2F;              // spread², relative to the noise²
 constexpr float kFewSteps = 0.15F;
@@ -187,7 +189,8 @@ void reject_furniture(Model& model) noexcept {
     const bool round =
         s.spread2 > kRounder * model.noise2 || is_uneven(s.spread2 / model.noise2, s.steps);
     const float least_m = is_flat(model, s) ? kLeastFlatHeightM : kLeastHeightM;
-    if (round || s.top_m - s.bottom_m < least_m || is_side_of_rejected(model, s)) {
+    const bool low = s.top_m < model.floor_z + kLowM;
+    if (round || low || s.top_m - s.bottom_m < least_m || is_side_of_rejected(model, s)) {
       s.accepted = false;
     }
   }

@@ -108,6 +108,13 @@ TEST(RobustRules, RemovesABoardThatStandsFreeBesideALeg) {
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
+// What is above it is hidden by a monitor.
+TEST(RobustRules, RemovesTheSideOfADesk) {
+  BoxRoom room;
+  room.boxes = {{{1.8, -0.25, -1.2}, {2.3, 0.25, -0.3}}, {{1.0, -0.6, -0.16}, {1.1, 0.6, 1.6}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kMostlyRemoved);
+}
+
 TEST(RobustRules, TheLatticeLiesAlongTheWalls) {
   test::LabelledCloud seen = test::revolution_in({}, {});
   const Eigen::AngleAxisf turn(0.3F, Vec3f::UnitZ());
