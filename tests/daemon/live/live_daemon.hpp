@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "config/conflicts.hpp"
 #include "tests/support/background_program.hpp"
 #include "tests/support/room.hpp"
 #include "tests/support/udp_sender.hpp"
@@ -23,7 +24,14 @@ namespace convexcut::test {
 // to it, and what its log says.
 class LiveDaemon : public RoomTest {
  protected:
-  static std::string domain() { return std::to_string(100 + ::getpid() % 99); }
+  static std::uint32_t domain_number() { return static_cast<std::uint32_t>(100 + ::getpid() % 99); }
+  static std::string domain() { return std::to_string(domain_number()); }
+  // The domain's own ports are among those that the kernel gives away.
+  static std::uint16_t free_lidar_port() {
+    std::uint16_t port = free_udp_port();
+    while (config::port_collision(domain_number(), port, port)) port = free_udp_port();
+    return port;
+  }
 
   void start_daemon(std::vector<std::string> settings, const ProgramLimits& limits = {}) {
     settings.insert(settings.begin(),
@@ -100,8 +108,8 @@ class LiveDaemon : public RoomTest {
     return std::stol(status.substr(status.find("VmRSS:") + 6));
   }
 
-  std::uint16_t data_port_ = free_udp_port();
-  std::uint16_t position_port_ = free_udp_port();
+  std::uint16_t data_port_ = free_lidar_port();
+  std::uint16_t position_port_ = free_lidar_port();
   std::unique_ptr<BackgroundProgram> daemon_;
 };
 
