@@ -237,7 +237,7 @@ TEST_P(RobustShapes, AreEigensBitByBit) {
                 kEigenHasPairs ? 1e-5F : 0.0F);
     }
   }
-  for (const std::size_t shapes : seen) EXPECT_GT(shapes, 20U);
+  for (const std::size_t shapes : seen) EXPECT_GT(shapes, test::repetitions(100));
 }
 
 CONVEXCUT_ON_EVERY_SIMD_PATH(RobustShapes);
