@@ -40,7 +40,7 @@ void place_by_seed(Run& run, bool travels) {
 }
 
 [[nodiscard]] Run make_run(std::string experiment, std::string_view scene, double tilt_deg,
-                           std::uint64_t seed, double seconds) {
+                           std::uint64_t seed, double seconds, bool travels = false) {
   Run run;
   run.experiment = std::move(experiment);
   run.scene = scene;
@@ -48,7 +48,7 @@ void place_by_seed(Run& run, bool travels) {
   simulation::SimulationOptions& options = run.options.simulation;
   options.seed = seed;
   options.length = std::chrono::milliseconds{static_cast<std::int64_t>(seconds * 1e3)};
-  place_by_seed(run, false);
+  place_by_seed(run, travels);
   options.rig.tilt = Degrees{tilt_deg};
   options.rig.rotation_per_second = kStage;
   return run;
@@ -131,10 +131,7 @@ constexpr std::string_view kMirrorScene = "bench/accuracy/mirror.toml";
   experiment.methods.push_back(robust_with_positions());
   for (int i = 0; i < (o.quick ? 1 : kDataSets); ++i) {
     Run run = make_run("moving", "glass-offices", 30.0,
-                       o.first_seed + static_cast<std::uint64_t>(i), o.quick ? 2.5 : 10.5);
-    place_by_seed(run, true);
-    run.options.simulation.rig.tilt = Degrees{30.0};
-    run.options.simulation.rig.rotation_per_second = kStage;
+                       o.first_seed + static_cast<std::uint64_t>(i), o.quick ? 2.5 : 10.5, true);
     run.options.simulation.rig.yaw = Degrees{25.0 * i};
     run.merge = o.quick ? 20 : kMerged;
     run.most_scans = run.merge;

@@ -29,16 +29,7 @@ KeptSlices::KeptSlices(const ConvexCutParameters& parameters)
       slices_(margin_m_ > 0.0 ? parameters.planes : 0),
       hull_u_(1 + kMostCorners + kKernelPadding, 0),
       hull_z_(1 + kMostCorners + kKernelPadding, 1),
-      normal_u_(kMostCorners + kKernelPadding, 2),
-      normal_z_(kMostCorners + kKernelPadding, 3),
-      offset_(kMostCorners + kKernelPadding, 4),
-      least_u_(kMostCorners + kKernelPadding, 5),
-      most_u_(kMostCorners + kKernelPadding, 6),
-      edges_{{normal_u_.data(), normal_z_.data(), offset_.data()}, least_u_.data(), most_u_.data()},
-      facing_normal_u_(kMostCorners + kKernelPadding, 7),
-      facing_normal_z_(kMostCorners + kKernelPadding, 8),
-      facing_offset_(kMostCorners + kKernelPadding, 9),
-      facing_{facing_normal_u_.data(), facing_normal_z_.data(), facing_offset_.data()},
+      edges_(kMostCorners, 2),
       u_(kMostLate + kKernelPadding, 10),
       z_(kMostLate + kKernelPadding, 11),
       position_(kMostLate + kKernelPadding, 12),
@@ -72,7 +63,7 @@ void KeptSlices::load_hull(const Slice& slice) noexcept {
   }
   hull_u_[0] = hull_u_[hull_size_];
   hull_z_[0] = hull_z_[hull_size_];
-  set_edges(hull(), edges_);
+  set_edges(hull(), edges_.edges);
 }
 
 void KeptSlices::decide(std::uint32_t number, const SlicingPlane& plane, const CloudView& cloud,
@@ -101,8 +92,8 @@ void KeptSlices::decide(std::uint32_t number, const SlicingPlane& plane, const C
   const Stretch all = all_of(count);
   std::uint32_t* const doubtful = shallow_position_.data();
   const std::size_t doubtful_count =
-      mark_near(edges_, facing_, members(), {&all, 1}, e_m - tolerance_m, e_m + tolerance_m,
-                marks_.span(), near_.data(), doubtful);
+      mark_near(edges_.edges, edges_.facing, members(), {&all, 1}, e_m - tolerance_m,
+                e_m + tolerance_m, marks_.span(), near_.data(), doubtful);
   for (std::size_t i = 0; i < doubtful_count; ++i) {
     if (near_boundary(exact_point(doubtful[i]), hull(), hull_distance_m_)) marks_[doubtful[i]] = 1;
   }
@@ -159,13 +150,14 @@ bool KeptSlices::add(std::uint32_t number, const SlicingPlane& plane, const Late
   const float tolerance_m = kDepthErrorPerExtent * extent_m;
   load_hull(slice);
   const std::size_t outside =
-      find_shallow(edges_, facing_, members(), {&all, 1}, tolerance_m, shallow());
+      find_shallow(edges_.edges, edges_.facing, members(), {&all, 1}, tolerance_m, shallow());
   if (outside != 0 && !grow(slice, plane, late, outside, tolerance_m)) return false;
   const auto e_m = static_cast<float>(hull_distance_m_);
   const std::uint32_t* const undecided = shallow_position_.data();
-  const std::size_t undecided_count = mark_near(
-      edges_, facing_, members(), {&all, 1}, e_m - static_cast<float>(margin_m_) - tolerance_m,
-      e_m + tolerance_m, late.marks, near_.data(), shallow_position_.data());
+  const std::size_t undecided_count =
+      mark_near(edges_.edges, edges_.facing, members(), {&all, 1},
+                e_m - static_cast<float>(margin_m_) - tolerance_m, e_m + tolerance_m, late.marks,
+                near_.data(), shallow_position_.data());
   if (slice.undecided_count + undecided_count > kMostUndecided) return false;
   for (std::size_t i = 0; i < undecided_count; ++i) {
     slice.undecided[slice.undecided_count++] = late.points[undecided[i]];

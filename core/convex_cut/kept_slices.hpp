@@ -20,6 +20,7 @@
 #include "core/cloud.hpp"
 #include "core/convex_cut/column.hpp"
 #include "core/convex_cut/convex_hull.hpp"
+#include "core/convex_cut/edge_workspace.hpp"
 #include "core/convex_cut/parameters.hpp"
 #include "core/convex_cut/polygon_kernels.hpp"
 #include "core/convex_cut/slice_kernels.hpp"
@@ -105,10 +106,7 @@ class KeptSlices {
   // Of the slice at hand. In front of the hull's first corner the last one again, as Polygon asks.
   Column<double> hull_u_, hull_z_;
   std::size_t hull_size_ = 0;
-  Column<float> normal_u_, normal_z_, offset_, least_u_, most_u_;
-  PolygonEdges edges_;
-  Column<float> facing_normal_u_, facing_normal_z_, facing_offset_;
-  EdgeColumns facing_;
+  EdgeWorkspace edges_;
   Column<float> u_, z_;
   Column<std::uint32_t> position_;
   Column<float> shallow_u_, shallow_z_;

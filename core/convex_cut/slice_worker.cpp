@@ -36,18 +36,7 @@ SliceWorker::SliceWorker(const ConvexCutParameters& parameters, std::size_t max_
       vertices_(max_points + 1),
       hull_u_(max_points + kKernelPadding, 9),
       hull_z_(max_points + kKernelPadding, 10),
-      normal_u_(max_points + kKernelPadding, 11),
-      normal_z_(max_points + kKernelPadding, 12),
-      edge_offset_(max_points + kKernelPadding, 13),
-      edge_least_u_(max_points + kKernelPadding, 14),
-      edge_most_u_(max_points + kKernelPadding, 15),
-      edges_{{normal_u_.data(), normal_z_.data(), edge_offset_.data()},
-             edge_least_u_.data(),
-             edge_most_u_.data()},
-      facing_normal_u_(max_points + kKernelPadding, 16),
-      facing_normal_z_(max_points + kKernelPadding, 17),
-      facing_offset_(max_points + kKernelPadding, 18),
-      facing_{facing_normal_u_.data(), facing_normal_z_.data(), facing_offset_.data()},
+      edges_(max_points, 11),
       marks_(max_points + kKernelPadding, 19) {}
 
 void SliceWorker::begin(const ShellIndex& index, float extent_m) noexcept {
@@ -105,17 +94,17 @@ Polygon SliceWorker::hull_of_members(const SlicingPlane& plane) noexcept {
       stretch.most_u_m = std::numeric_limits<float>::max();
     }
   }
-  set_edges(polygon_->polygon(), edges_);
+  set_edges(polygon_->polygon(), edges_.edges);
   std::size_t candidates =
-      find_shallow(edges_, facing_, members(), stretches_, tolerance_m_, shallow());
+      find_shallow(edges_.edges, edges_.facing, members(), stretches_, tolerance_m_, shallow());
   std::size_t most_candidates = kMostCandidatesAtFirst;
   for (int round = 0; round < kMostRounds && candidates <= most_candidates; ++round) {
     // The corners are candidates themselves. When there are no others, all other members are
     // inside.
     if (candidates == polygon_->size() && polygon_->is_convex()) return polygon_->polygon();
     if (!widen_polygon(plane, candidates)) break;
-    set_edges(polygon_->polygon(), edges_);
-    candidates = drop_deep(edges_, shallow(), candidates, tolerance_m_);
+    set_edges(polygon_->polygon(), edges_.edges);
+    candidates = drop_deep(edges_.edges, shallow(), candidates, tolerance_m_);
     most_candidates = kMostCandidates;
   }
   return exact_hull(plane, candidates);
@@ -154,7 +143,7 @@ void SliceWorker::start_with_any_triangle(const SlicingPlane& plane) noexcept {
 // A. Bykat's Quickhull, 1977/78). False when there is none, or no room.
 bool SliceWorker::widen_polygon(const SlicingPlane& plane, std::size_t candidates) noexcept {
   if (2 * polygon_->size() > InnerPolygon::kMostCorners) return false;
-  farthest_outside(edges_, shallow(), candidates, tolerance_m_, farthest_.data());
+  farthest_outside(edges_.edges, shallow(), candidates, tolerance_m_, farthest_.data());
   wider_polygon_->clear();
   for (std::size_t k = 0; k < polygon_->size(); ++k) {
     const bool is_found = farthest_[k] != kNobody;
@@ -184,7 +173,7 @@ Polygon SliceWorker::exact_hull(const SlicingPlane& plane, std::size_t count) no
   u[-1] = hull.back().u;
   z[-1] = hull.back().z;
   const Polygon polygon{u, z, hull.size()};
-  set_edges(polygon, edges_);
+  set_edges(polygon, edges_.edges);
   return polygon;
 }
 
@@ -197,7 +186,7 @@ void SliceWorker::keep(float margin_m) noexcept {
   std::uint32_t* const undecided = shallow_position_.data();  // the hull is done with
   const auto e_m = static_cast<float>(hull_distance_m_);
   const std::size_t count =
-      mark_near(edges_, facing_, members(), stretches_, e_m - margin_m - tolerance_m_,
+      mark_near(edges_.edges, edges_.facing, members(), stretches_, e_m - margin_m - tolerance_m_,
                 e_m + tolerance_m_, marks_.span(), near_.data(), undecided);
   undecided_ = {undecided, count};
 }

@@ -18,6 +18,7 @@
 
 #include "core/convex_cut/column.hpp"
 #include "core/convex_cut/convex_hull.hpp"
+#include "core/convex_cut/edge_workspace.hpp"
 #include "core/convex_cut/inner_polygon.hpp"
 #include "core/convex_cut/parameters.hpp"
 #include "core/convex_cut/polygon_kernels.hpp"
@@ -103,10 +104,7 @@ class SliceWorker {
   Workspace<SlicePoint> candidates_;
   Workspace<SlicePoint> vertices_;
   Column<double> hull_u_, hull_z_;
-  Column<float> normal_u_, normal_z_, edge_offset_, edge_least_u_, edge_most_u_;
-  PolygonEdges edges_;
-  Column<float> facing_normal_u_, facing_normal_z_, facing_offset_;
-  EdgeColumns facing_;
+  EdgeWorkspace edges_;
   Column<std::uint8_t> marks_;
 };
 

@@ -21,8 +21,7 @@ constexpr float kSillM = 0.3F;
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
 constexpr float kLeastHeightM = 1.1F;  // of a narrow face: five cells
-constexpr float kLowM =
-    1.0F;  // over the floor: the side of a desk, where it is seen between other things
+constexpr float kLowM = 1.0F;          // over the floor: sides of desks, seen between other things
 constexpr float kLeastFlatHeightM = 0.9F;  // of a flat one: four
 constexpr float kFlat = 1.2F;              // spread², relative to the noise²
 constexpr float kFewSteps = 0.15F;

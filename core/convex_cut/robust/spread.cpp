@@ -17,8 +17,7 @@ namespace {
 
 constexpr float kEdgeOnM = 0.10F;          // nearer to the lidar a plane is seen along itself
 constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
-constexpr double kLeastCosine2 =
-    0.05;  // of the beams on a plane: what is seen flatter tells little
+constexpr double kLeastCosine2 = 0.05;     // of the beams on a plane: flatter tells little
 
 // Sums over the points of a plane.
 struct Sums {
