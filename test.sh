@@ -91,6 +91,7 @@ build_preset() {
 # guest_checks: the release build in a guest (tests/vm), whose checks are added to ours.
 guest_checks() {
   local log="$logs/vm.log" status
+  [ -z "${begun[guest]:-}" ] || wait "${begun[guest]}"
   scripts/install-packages.sh vm || echo "        packages of the guest cannot be installed"
   tests/vm/run.sh 2>&1 | tee "$log"
   status=${PIPESTATUS[0]}
@@ -127,8 +128,10 @@ for step in "${steps[@]}"; do
       ;;
     # Not what differs from another test in what is judged, not in the code that runs.
     asan)
-      check build-asan build_preset asan -DCONVEXCUT_BENCH=OFF &&
+      if check build-asan build_preset asan -DCONVEXCUT_BENCH=OFF; then
+        [[ " ${steps[*]} " != *" vm "* ]] || begin guest tests/vm/make-rootfs.sh
         ctest_preset asan -E 'HoldsUpNobody/best_effort|PacketLoss.*/Of01|Rotor.*/(9|20)$|replay_robust_test|ProcessedGivesTheOrientations'
+      fi
       ;;
     # Only what runs on several threads: the other tests cannot race. The largest cloud and the paths of the kernels,
     # on which threads work in the same way, would be half of the time.

@@ -3,9 +3,10 @@
 # libraries that the programs of the release build link, nothing else.
 #   tests/vm/make-rootfs.sh [--force]
 # It is made once (about a minute) and kept: its key is a hash of what it is made from. --force makes it anew,
-# which is how newer versions of the packages come in. Needs root, or sudo; see install-packages.sh vm.
+# which is how newer versions of the packages come in. Needs root, or sudo.
 set -euo pipefail
 cd "$(dirname "$0")"
+../../scripts/install-packages.sh vm
 cache=$(cd ../.. && pwd)/build/vm
 mkdir -p "$cache"
 
