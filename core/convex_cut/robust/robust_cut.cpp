@@ -24,6 +24,7 @@ using robust::VoxelMap;
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 constexpr std::size_t kMostVoxels = 24'576;         // of a revolution
 constexpr std::size_t kMostWindowVoxels = 131'072;  // of all
+constexpr std::size_t kNewVoxels = 2'048;           // of a further revolution: twice a hall's
 constexpr std::size_t kMostSegments = 2'048;
 
 constexpr float kUnknownMotionM = 0.10F;  // in a revolution, one sigma
@@ -38,6 +39,10 @@ constexpr float kHalfDiagonal = 0.87F;  // of a voxel, relative to its edge
 [[nodiscard]] const RobustParameters& checked(const RobustParameters& parameters) {
   if (!is_valid(parameters)) throw std::invalid_argument("robust parameters out of range");
   return parameters;
+}
+
+[[nodiscard]] std::size_t window_voxels(const RobustParameters& parameters) noexcept {
+  return std::min(kMostWindowVoxels, kMostVoxels + parameters.window * kNewVoxels);
 }
 
 [[nodiscard]] std::size_t checked(std::size_t max_points) {
@@ -74,13 +79,13 @@ RobustCut::RobustCut(const RobustParameters& parameters, std::size_t max_points)
     : parameters_(checked(parameters)),
       max_points_(checked(max_points)),
       revolution_(std::min(max_points, kMostVoxels)),
-      window_(parameters.window, std::min(max_points, kMostVoxels), kMostWindowVoxels),
-      plane_search_(kMostWindowVoxels),
-      grids_(kMostWindowVoxels),
-      mirrors_(kMostWindowVoxels),
-      curved_(kMostWindowVoxels) {
+      window_(parameters.window, std::min(max_points, kMostVoxels), window_voxels(parameters)),
+      plane_search_(window_voxels(parameters)),
+      grids_(window_voxels(parameters)),
+      mirrors_(window_voxels(parameters)),
+      curved_(window_voxels(parameters)) {
   voxel_of_point_.resize(max_points);
-  model_.surfels.reserve(kMostWindowVoxels);
+  model_.surfels.reserve(window_voxels(parameters));
   model_.segments.reserve(kMostSegments);
   model_.planes.reserve(robust::PlaneSearch::kMostPlanes);
   near_.reserve(std::min(max_points, kMostVoxels));

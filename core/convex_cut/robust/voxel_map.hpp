@@ -92,6 +92,7 @@ class VoxelMap {
   [[nodiscard]] std::span<Voxel> voxels() noexcept { return voxels_; }
   [[nodiscard]] std::span<const Voxel> voxels() const noexcept { return voxels_; }
   [[nodiscard]] std::size_t size() const noexcept { return voxels_.size(); }
+  [[nodiscard]] std::size_t capacity() const noexcept { return voxels_.capacity(); }
 
   // The indices of the voxels in the block that the key lies in, each kNone where there is none.
   [[nodiscard]] const std::int32_t* block_at(VoxelKey key) const noexcept {

@@ -25,10 +25,13 @@ void Window::clear() noexcept {
 void Window::add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t keep) noexcept {
   keep = std::clamp<std::uint32_t>(keep, 1U, static_cast<std::uint32_t>(slots_.size()));
   const auto is_full = [&] {
-    return newest_ - oldest_ >= keep || used_ + revolution.size() > entries_.size();
+    return newest_ - oldest_ >= keep || used_ + revolution.size() > entries_.size() ||
+           map_.size() + revolution.size() > map_.capacity();
   };
-  while (newest_ != oldest_ && is_full()) forget_oldest();
-  map_.remove_empty();
+  while (newest_ != oldest_ && is_full()) {
+    forget_oldest();
+    map_.remove_empty();
+  }
   const Slot& last = slots_[(newest_ + slots_.size() - 1) % slots_.size()];
   const std::size_t first = (last.first + last.count) % entries_.size();
   newest_slot_ = newest_ % slots_.size();

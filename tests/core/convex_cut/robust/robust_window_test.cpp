@@ -132,6 +132,22 @@ TEST(RobustWindow, KeepsFewerRevolutionsThatHaveMoreVoxelsThanUsual) {
   }
 }
 
+TEST(RobustWindow, KeepsFewerRevolutionsOfARigThatLeavesThemBehind) {
+  constexpr std::int32_t kVoxels = 1'000;
+  Window window(8, kVoxels, 4 * kVoxels + 1);
+  for (std::int32_t i = 0; i < 20; ++i) {
+    VoxelMap revolution(kVoxels);
+    for (std::int32_t v = 0; v < kVoxels; ++v) {
+      const auto index = static_cast<std::size_t>(
+          revolution.find_or_add(robust::key_of({10 * i + v % 10, v / 10 % 10, v / 100})));
+      revolution.voxels()[index].moments.add_mm(1, 0, 0);
+    }
+    window.add(revolution, Vec3f::Zero(), 8);
+    ASSERT_EQ(window.revolutions(), static_cast<std::uint32_t>(std::min(i + 1, 4)));
+    for (std::size_t v = 0; v < kVoxels; ++v) ASSERT_NE(window.merged(v), VoxelMap::kNone);
+  }
+}
+
 // Points about the middle of a voxel: on a plane, a line, anywhere, or all of them one.
 [[nodiscard]] robust::Moments random_moments(std::mt19937& random, int kind) {
   const auto any = [&](std::int32_t from, std::int32_t to) {
