@@ -35,9 +35,9 @@ namespace convexcut {
 
 class RobustCut {
  public:
-  // Allocates everything it will ever need: 4 bytes a point and about 86 MB. Throws
-  // std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹, and
-  // std::bad_alloc.
+  // Allocates everything it will ever need: 4 bytes a point and about 46 MB for ten
+  // revolutions. Throws std::invalid_argument when the parameters are not valid or max_points
+  // exceeds 2³¹, and std::bad_alloc.
   RobustCut(const RobustParameters& parameters, std::size_t max_points);
 
   // Labels every point of a revolution in frame level, and remembers it for those that follow. The

@@ -16,8 +16,8 @@ namespace convexcut::robust {
 class Window {
  public:
   // Allocates for that many voxels, and 48 bytes for each voxel of each revolution, of which there
-  // are kUsualVoxels on the average: where there are more, and where a rig goes on so fast that they
-  // do not cover each other, fewer revolutions are kept.
+  // are kUsualVoxels on the average: where there are more, and where a rig goes on so fast that
+  // they do not cover each other, fewer revolutions are kept.
   static constexpr std::size_t kUsualVoxels = 14'336;  // in a hall of 60 m
   Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std::size_t voxels);
 
