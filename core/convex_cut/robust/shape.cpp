@@ -14,19 +14,14 @@ constexpr std::int32_t kManyPoints = 12;
 // Looks all of them up before any is used, so that they come into the cache together.
 void collect(const VoxelMap& map, VoxelKey key, Around& found) noexcept {
   const Neighbourhood around(map, key);
-  std::uint8_t step = 0;
   std::size_t count = 0;
-  for (std::uint32_t x = 0; x < 3; ++x) {
-    for (std::uint32_t y = 0; y < 3; ++y) {
-      for (std::uint32_t z = 0; z < 3; ++z, ++step) {
-        const std::int32_t index = around.at(x, y, z);
-        // Without a branch: which of them are occupied is as good as random.
-        const auto at_least_0 = static_cast<std::size_t>(std::max(index, 0));
-        found.moments[count] = &map.voxels()[at_least_0].moments;
-        found.step[count] = step;
-        count += index != VoxelMap::kNone ? 1U : 0U;
-      }
-    }
+  for (std::uint8_t step = 0; step < Neighbourhood::kCount; ++step) {
+    const std::int32_t index = around.at(step);
+    // Without a branch: which of them are occupied is as good as random.
+    const auto at_least_0 = static_cast<std::size_t>(std::max(index, 0));
+    found.moments[count] = &map.voxels()[at_least_0].moments;
+    found.step[count] = step;
+    count += index != VoxelMap::kNone ? 1U : 0U;
   }
   found.count = count;
   for (std::size_t k = 0; k < count; ++k) __builtin_prefetch(found.moments[k]);

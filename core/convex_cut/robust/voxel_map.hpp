@@ -141,16 +141,22 @@ class VoxelMap {
 // Where the voxels are that lie around one, itself among them: those of up to eight blocks.
 class Neighbourhood {
  public:
+  static constexpr std::size_t kCount = 27;  // steps along z first, then y, then x
+  [[nodiscard]] static constexpr Lattice step_of(std::size_t k) noexcept {
+    const auto step = static_cast<std::int32_t>(k);
+    return {step / 9 - 1, step / 3 % 3 - 1, step % 3 - 1};
+  }
+
   Neighbourhood(const VoxelMap& map, VoxelKey key) noexcept {
     constexpr VoxelKey kX = VoxelKey{1} << 42U;
     constexpr VoxelKey kY = VoxelKey{1} << 21U;
     const VoxelKey first = key - kX - kY - 1;  // the corner; keys add up as places do
-    x0_ = static_cast<std::uint32_t>((first >> 42U) & 3U);
-    y0_ = static_cast<std::uint32_t>((first >> 21U) & 3U);
-    z0_ = static_cast<std::uint32_t>(first & 3U);
-    for (std::uint32_t x = 0; x <= (x0_ + 2) / 4; ++x) {
-      for (std::uint32_t y = 0; y <= (y0_ + 2) / 4; ++y) {
-        for (std::uint32_t z = 0; z <= (z0_ + 2) / 4; ++z) {
+    const std::size_t corner = VoxelMap::place_in_block(first);
+    sites_ = kSites[corner].data();
+    // Three steps from 2 or 3 on reach into the next block.
+    for (std::uint32_t x = 0; x <= corner >> 5U; ++x) {
+      for (std::uint32_t y = 0; y <= (corner >> 3U & 1U); ++y) {
+        for (std::uint32_t z = 0; z <= (corner >> 1U & 1U); ++z) {
           const std::int32_t* block = map.block_at(first + 4 * (x * kX + y * kY + z));
           is_empty_ = is_empty_ && block == map.empty_block();
           blocks_[4 * x + 2 * y + z] = block;
@@ -160,17 +166,34 @@ class Neighbourhood {
   }
   // For sure.
   [[nodiscard]] bool is_empty() const noexcept { return is_empty_; }
-  // Of lattice steps 0 … 2 from the corner on.
-  [[nodiscard]] std::int32_t at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const noexcept {
-    x += x0_;
-    y += y0_;
-    z += z0_;
-    return blocks_[x / 4 * 4 + y / 4 * 2 + z / 4][x % 4 * 16 + y % 4 * 4 + z % 4];
+  // The index of the voxel step_of(k) from the middle one; VoxelMap::kNone where there is none.
+  [[nodiscard]] std::int32_t at(std::size_t k) const noexcept {
+    return blocks_[sites_[k].block][sites_[k].place];
   }
 
  private:
+  struct Site {
+    std::uint8_t block;  // of blocks_
+    std::uint8_t place;  // in it
+  };
+  using Sites = std::array<Site, kCount>;
+  // By the corner's place in its block.
+  static constexpr std::array<Sites, 64> kSites = [] {
+    std::array<Sites, 64> all{};
+    for (std::size_t corner = 0; corner < all.size(); ++corner) {
+      for (std::size_t k = 0; k < kCount; ++k) {
+        const std::size_t x = corner / 16 + k / 9;
+        const std::size_t y = corner / 4 % 4 + k / 3 % 3;
+        const std::size_t z = corner % 4 + k % 3;
+        all[corner][k] = {static_cast<std::uint8_t>(x / 4 * 4 + y / 4 * 2 + z / 4),
+                          static_cast<std::uint8_t>(x % 4 * 16 + y % 4 * 4 + z % 4)};
+      }
+    }
+    return all;
+  }();
+
   std::array<const std::int32_t*, 8> blocks_{};  // from the corner on, and those that follow
-  std::uint32_t x0_, y0_, z0_;                   // of the corner in its block
+  const Site* sites_;
   bool is_empty_ = true;
 };
 
@@ -180,15 +203,10 @@ template <class Test>
 [[nodiscard]] bool any_neighbour(const VoxelMap& map, VoxelKey key, Test&& test) noexcept {
   const Neighbourhood around(map, key);
   if (around.is_empty()) return false;
-  for (std::uint32_t x = 0; x < 3; ++x) {
-    for (std::uint32_t y = 0; y < 3; ++y) {
-      for (std::uint32_t z = 0; z < 3; ++z) {
-        const std::int32_t index = around.at(x, y, z);
-        if (index == VoxelMap::kNone) continue;
-        const auto step = [](std::uint32_t at) { return static_cast<std::int32_t>(at) - 1; };
-        if (test(static_cast<std::size_t>(index), Lattice{step(x), step(y), step(z)})) return true;
-      }
-    }
+  for (std::size_t k = 0; k < Neighbourhood::kCount; ++k) {
+    const std::int32_t index = around.at(k);
+    if (index == VoxelMap::kNone) continue;
+    if (test(static_cast<std::size_t>(index), Neighbourhood::step_of(k))) return true;
   }
   return false;
 }
