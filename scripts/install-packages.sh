@@ -6,7 +6,7 @@ set -euo pipefail
 build=(build-essential cmake ninja-build pkg-config ca-certificates
   libpcap-dev libeigen3-dev libhwy-dev cyclonedds-dev cyclonedds-tools libtomlplusplus-dev libcli11-dev
   libpng-dev libgtest-dev libgmock-dev libbenchmark-dev libboost-dev)
-check=(libqhull-dev libcgal-dev clang clang-format clang-tidy clang-tools libclang-rt-14-dev lld llvm python3 tshark git iproute2 bc rt-tests stress-ng valgrind)
+check=(libqhull-dev libcgal-dev clang clang-format clang-tidy libclang-rt-14-dev lld llvm python3 tshark git iproute2 bc rt-tests stress-ng valgrind)
 # Libraries of another architecture: dpkg has to be told of it.
 aarch64=(g++-aarch64-linux-gnu qemu-user libhwy-dev:arm64 libgtest-dev:arm64 libgmock-dev:arm64)
 vm=(mmdebstrap e2fsprogs kmod user-mode-linux)
