@@ -100,7 +100,7 @@ struct ConvexCut {
   std::uint32_t planes = 360;
   double half_width_m = 0.05;
   double hull_distance_m = 0.08;
-  std::uint32_t window = 10;
+  std::uint32_t window = 30;
   double band_m = 0.06;
   std::uint32_t threads = 1;
   SimdPath simd = SimdPath::automatic;

@@ -136,7 +136,7 @@ The plot has {sum(c['name'].startswith('size_') for c in report['cases'])} sizes
 
 ## The robust method
 
-On one thread, its window of 10 revolutions full, in two of the simulator's scenes (`docs/scenes.md`; tilt 30°, turning by 6° a
+On one thread, its window of 30 revolutions full, in two of the simulator's scenes (`docs/scenes.md`; tilt 30°, turning by 6° a
 revolution), in turns with Algorithm 1 with Qhull on a revolution of the same scene.
 
 {robust}

@@ -87,12 +87,12 @@ std::vector<NamedMethod> compared_methods() {
 std::vector<NamedMethod> ablations() {
   RobustParameters one;
   one.window = 1;
-  RobustParameters thirty;
-  thirty.window = 30;
+  RobustParameters ten;
+  ten.window = 10;
   return {
       robust("robust", "all parts", {}),
       robust("window 1", "one revolution alone", one),
-      robust("window 30", "thirty revolutions", thirty),
+      robust("window 10", "ten revolutions", ten),
       without("no free space", "every plane is kept", &RobustParameters::free_space),
       without("no furniture rule", "fronts before walls are kept", &RobustParameters::furniture),
       without("no fixture rule", "what is flat on a wall is kept", &RobustParameters::fixtures),
