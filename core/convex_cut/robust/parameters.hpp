@@ -7,8 +7,8 @@ namespace convexcut {
 
 // Of RobustCut. Each part can be left out, to measure what it is worth.
 struct RobustParameters {
-  // Revolutions that decide together, the newest included: half a turn of a stage that turns by 60° a
-  // second. Ten take two thirds of the time in a hall (docs/design/robust.md).
+  // Revolutions that decide together, the newest included: half a turn of a stage that turns by 60°
+  // a second. Ten take two thirds of the time in a hall (docs/design/robust.md).
   std::uint32_t window = 30;
   // A point is structure when it is at most this far from a surface that was accepted.
   float band_m = 0.06F;
