@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -10,11 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include <sys/mman.h>
+
 namespace convexcut {
 
 // Leaves elements of trivial types unset where std::allocator would zero them: workspace that is
-// sized for the largest cloud then costs no memory until a cloud needs it. Large blocks ask for huge
-// pages: what is read and written at many places at once would wait for the tables of small ones.
+// sized for the largest cloud then costs no memory until a cloud needs it. Large blocks ask for
+// huge pages: what is read and written at many places at once would wait for the tables of small
+// ones.
 template <class T>
 class UnsetAllocator : public std::allocator<T> {
  public:
@@ -26,7 +27,7 @@ class UnsetAllocator : public std::allocator<T> {
   [[nodiscard]] T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
     if (bytes < kLargeBytes) return std::allocator<T>::allocate(count);
-    void* const block = ::operator new(bytes, std::align_val_t{kHugePageBytes});
+    void* const block = ::operator new (bytes, std::align_val_t{kHugePageBytes});
     // A wish: where the system has no huge pages to give, small ones do.
     static_cast<void>(::madvise(block, bytes, MADV_HUGEPAGE));
     return static_cast<T*>(block);
@@ -35,7 +36,7 @@ class UnsetAllocator : public std::allocator<T> {
     if (count * sizeof(T) < kLargeBytes) {
       std::allocator<T>::deallocate(block, count);
     } else {
-      ::operator delete(block, std::align_val_t{kHugePageBytes});
+      ::operator delete (block, std::align_val_t{kHugePageBytes});
     }
   }
 
