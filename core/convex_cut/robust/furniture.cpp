@@ -18,6 +18,7 @@ constexpr float kNeighbourM = 1.0F;
 constexpr float kSameHeightM = 0.1F;
 constexpr float kDeepestRecessM = 0.35F;  // of a window
 constexpr float kSillM = 0.3F;
+constexpr float kLeastWithin = 0.2F;  // of a pane's width
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
 constexpr float kLeastHeightM = 1.1F;  // of a narrow face: five cells
@@ -85,24 +86,31 @@ struct PlaneExtent {
   return along_of(plane) * along_m - plane.normal * plane.offset;
 }
 
-// A pane in a recess of the front: it begins well above the front's bottom and does not rise above
-// its top.
+// A pane in a recess of the front: it begins well above the front's bottom, does not rise above its
+// top, and is not all beside it.
 [[nodiscard]] bool is_pane_of(const Model& model, std::size_t front, std::size_t wall) noexcept {
+  const PlaneExtent of_front = extent_of(model, front, false);
   float bottom = 1e9F;
   float top = -1e9F;
   float front_bottom = 1e9F;
   float front_top = -1e9F;
+  float width_m = 0.0F;
+  float within_m = 0.0F;
   for (const WallSegment& s : model.segments) {
     if (s.plane == wall && s.accepted) {
       bottom = std::min(bottom, s.bottom_m);
       top = std::max(top, s.top_m);
+      width_m += s.width_m();
+      within_m +=
+          std::max(0.0F, std::min(s.end_m, of_front.end_m) - std::max(s.begin_m, of_front.begin_m));
     }
     if (s.plane == front) {
       front_bottom = std::min(front_bottom, s.bottom_m);
       front_top = std::max(front_top, s.top_m);
     }
   }
-  return bottom > front_bottom + kSillM && top < front_top + kSillM;
+  return bottom > front_bottom + kSillM && top < front_top + kSillM &&
+         within_m > kLeastWithin * width_m;
 }
 
 [[nodiscard]] bool stands_before(const Model& model, const WallSegment& front, std::size_t wall,
