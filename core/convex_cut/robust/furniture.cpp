@@ -19,6 +19,7 @@ constexpr float kSameHeightM = 0.1F;
 constexpr float kDeepestRecessM = 0.35F;  // of a window
 constexpr float kSillM = 0.3F;
 constexpr float kLeastWithin = 0.2F;  // of a pane's width
+constexpr float kShelfM = 0.25F;      // no bookcase is less deep
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
 constexpr float kLeastHeightM = 1.1F;  // of a narrow face: five cells
@@ -87,8 +88,9 @@ struct PlaneExtent {
 }
 
 // A pane in a recess of the front: it begins well above the front's bottom, does not rise above its
-// top, and is not all beside it.
-[[nodiscard]] bool is_pane_of(const Model& model, std::size_t front, std::size_t wall) noexcept {
+// top, and is not all beside it where it lies as deep as the wall behind a bookcase.
+[[nodiscard]] bool is_pane_of(const Model& model, std::size_t front, std::size_t wall,
+                              float depth_m) noexcept {
   const PlaneExtent of_front = extent_of(model, front, false);
   float bottom = 1e9F;
   float top = -1e9F;
@@ -110,7 +112,7 @@ struct PlaneExtent {
     }
   }
   return bottom > front_bottom + kSillM && top < front_top + kSillM &&
-         within_m > kLeastWithin * width_m;
+         (depth_m < kShelfM || within_m > kLeastWithin * width_m);
 }
 
 [[nodiscard]] bool stands_before(const Model& model, const WallSegment& front, std::size_t wall,
@@ -126,7 +128,7 @@ struct PlaneExtent {
   const bool higher = front.top_m < model.ceiling_z - kToCeilingM &&
                       top_near(model, wall, front, kReachM) > front.top_m - kSameHeightM;
   if (!fixture && tall && !higher) return false;
-  if (depth < kDeepestRecessM && is_pane_of(model, front.plane, wall)) return false;
+  if (depth < kDeepestRecessM && is_pane_of(model, front.plane, wall, depth)) return false;
   const PlaneExtent of_wall = extent_of(model, wall, true);
   if (of_wall.begin_m > front.end_m + kReachM || of_wall.end_m < front.begin_m - kReachM) {
     return false;
