@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/convex_cut/robust/plane_search.hpp"
 #include "core/convex_cut/robust/robust_cut.hpp"
 #include "tests/core/convex_cut/robust/room_cut.hpp"
 
@@ -99,16 +100,19 @@ TEST(RobustRules, KeepsALongWallWithThingsOnIt) {
   EXPECT_GT(cut(room, {}).share_of(test::kWalls), 0.95);
 }
 
-// A chair's leg in the board's plane; what is beside that is hidden.
-TEST(RobustRules, RemovesABoardThatStandsFreeBesideALeg) {
+// Chairs' legs in the board's plane; what is beside these is hidden.
+TEST(RobustRules, RemovesABoardThatStandsFreeBesideLegs) {
   BoxRoom room;
   room.boxes = {{{1.8, -0.8, -1.2}, {1.85, 0.8, 0.7}},
                 {{1.8, 1.2, -1.2}, {1.85, 1.4, -0.6}},
                 {{0.9, 0.72, -1.2}, {1.0, 1.3, 1.6}}};
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
+  // Together they are wider than a screen.
+  room.boxes.push_back({{1.8, -1.4, -1.2}, {1.85, -1.2, -0.6}});
+  room.boxes.push_back({{0.9, -1.3, -1.2}, {1.0, -0.72, 1.6}});
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
-// What is above it is hidden by a monitor.
 TEST(RobustRules, RemovesTheSideOfADesk) {
   BoxRoom room;
   room.boxes = {{{1.8, -0.25, -1.2}, {2.3, 0.25, -0.3}}, {{1.0, -0.6, -0.16}, {1.1, 0.6, 1.6}}};
@@ -190,6 +194,44 @@ TEST(RobustRules, AMotionThatNoPlaneHoldsDiesOut) {
   EXPECT_LT(farthest, 8.0F * static_cast<float>(kStepM));
 }
 
+// A larger plane crosses a wall at 10 degrees, and takes what lies where they meet.
+TEST(RobustRules, AWallOfTheLastRevolutionKeepsWhatLiesOnIt) {
+  robust::Model model;
+  const auto add = [&model](const Vec3f& mean, const Vec3f& normal) {
+    robust::Surfel surfel;
+    surfel.mean = mean;
+    surfel.direction = normal;
+    surfel.points = 30;
+    surfel.shape = robust::Shape::plane;
+    surfel.supported = true;
+    model.surfels.push_back(surfel);
+  };
+  const Vec3f across = Vec3f(1.0F, 0.17F, 0.0F).normalized();
+  constexpr int kOfWall = 105;
+  for (int i = 0; i < kOfWall; ++i) {
+    add({3.0F, 0.2F * static_cast<float>(i % 21 - 10), 0.2F * static_cast<float>(i / 21)},
+        -Vec3f::UnitX());
+  }
+  for (int i = 0; i < 294; ++i) {
+    const float y = 0.2F * static_cast<float>(i % 21 - 10);
+    add({3.0F - 0.17F * (y - 0.5F), y, 0.2F * static_cast<float>(i / 21 - 5)}, -across);
+  }
+  robust::PlaneSearch search(model.surfels.size());
+  const auto most_on_one_plane = [&] {
+    std::vector<int> counts(model.planes.size());
+    for (int i = 0; i < kOfWall; ++i) {
+      const std::int32_t plane = model.surfels[static_cast<std::size_t>(i)].plane;
+      if (plane != robust::kNoPlane) ++counts[static_cast<std::size_t>(plane)];
+    }
+    return *std::max_element(counts.begin(), counts.end());
+  };
+  search.run(model, Vec3f::Zero());
+  EXPECT_LT(most_on_one_plane(), kOfWall - 5);
+  for (robust::Plane& plane : model.planes) plane.accepted = std::abs(plane.normal.x()) > 0.99F;
+  search.run(model, Vec3f::Zero());
+  EXPECT_EQ(most_on_one_plane(), kOfWall);
+}
+
 TEST(RobustRules, KeepsParallelBeamsOfTheSameHeight) {
   BoxRoom room;
   room.boxes = {{{0.85, -3.0, 1.2}, {1.15, 3.0, 1.6}}, {{-1.15, -3.0, 1.2}, {-0.85, 3.0, 1.6}}};
@@ -222,6 +264,16 @@ TEST(RobustRules, APaneInARecessDoesNotRejectItsWall) {
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
   room.boxes.push_back({{3.3, 1.7, -1.2}, {4.0, 3.0, -0.4}});
   EXPECT_GT(cut(room, {}).share_of(0), kKept);
+}
+
+// The wall beside a cupboard is seen above low cases only.
+TEST(RobustRules, AWallBesideACupboardIsNoPaneInIt) {
+  BoxRoom room;
+  room.walls = {{-3.0, -3.0, -1.2}, {2.0, 3.0, 1.6}};
+  room.boxes = {{{1.7, -1.0, -1.2}, {2.0, 1.0, 1.6}},
+                {{1.5, -3.0, -1.2}, {2.0, -1.0, -0.6}},
+                {{1.5, 1.0, -1.2}, {2.0, 3.0, -0.6}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
 // The niche beside the front is seen as high as the front, or no higher than 2 m.
