@@ -141,20 +141,17 @@ struct PlaneExtent {
   return (beyond || above) && (wide || fixture);
 }
 
-// Whether a face meets a rejected one of about its height at an edge.
-[[nodiscard]] bool is_side_of_rejected(const Model& model, const WallSegment& face) noexcept {
+// Whether two faces of about the same height meet at an edge.
+[[nodiscard]] bool meets(const Model& model, const WallSegment& face,
+                         const WallSegment& other) noexcept {
   const Plane& plane = model.planes[face.plane];
-  const std::array<Vec3f, 2> ends{point_of(plane, face.begin_m), point_of(plane, face.end_m)};
-  for (const WallSegment& other : model.segments) {
-    if (other.accepted || other.plane == face.plane) continue;
-    const Plane& across = model.planes[other.plane];
-    if (std::abs(across.normal.dot(plane.normal)) > 0.5F) continue;
-    if (std::abs(other.top_m - face.top_m) > kSameTopM) continue;
-    for (const float m : {other.begin_m, other.end_m}) {
-      const Vec3f edge = point_of(across, m);
-      for (const Vec3f& end : ends) {
-        if ((end - edge).head<2>().norm() < kTouchM) return true;
-      }
+  const Plane& across = model.planes[other.plane];
+  if (std::abs(across.normal.dot(plane.normal)) > 0.5F) return false;
+  if (std::abs(other.top_m - face.top_m) > kSameTopM) return false;
+  for (const float m : {other.begin_m, other.end_m}) {
+    const Vec3f edge = point_of(across, m);
+    for (const float end_m : {face.begin_m, face.end_m}) {
+      if ((point_of(plane, end_m) - edge).head<2>().norm() < kTouchM) return true;
     }
   }
   return false;
@@ -170,6 +167,37 @@ struct PlaneExtent {
 // As the faces of pillars are, and nothing passes it.
 [[nodiscard]] bool is_flat(const Model& model, const WallSegment& face) noexcept {
   return face.open == 0 && face.spread2 <= kFlat * model.noise2 && face.steps <= kFewSteps;
+}
+
+// Of a narrow face, by itself.
+[[nodiscard]] bool is_round(const Model& model, const WallSegment& s) noexcept {
+  const float spread = s.spread2 / model.noise2;
+  return spread > kRounder || is_uneven(spread, s.steps);
+}
+
+[[nodiscard]] bool is_too_short(const Model& model, const WallSegment& s) noexcept {
+  const float least_m = is_flat(model, s) ? kLeastFlatHeightM : kLeastHeightM;
+  return s.top_m < model.floor_z + kLowM || s.top_m - s.bottom_m < least_m;
+}
+
+// A person shows no flat face, but a pillar's may be seen as a round one: where it lies along a
+// border of voxels, and they hold its edges too. So one flat face speaks for those that meet it.
+void reject_narrow(Model& model) noexcept {
+  for (WallSegment& s : model.segments) {
+    if (!s.accepted || !s.narrow || is_on_wider(model, s)) continue;
+    const auto meets_flat = [&](const WallSegment& other) {
+      return other.accepted && other.narrow && is_flat(model, other) &&
+             !is_too_short(model, other) && meets(model, s, other);
+    };
+    const auto meets_rejected = [&](const WallSegment& other) {
+      return !other.accepted && meets(model, s, other);
+    };
+    const auto any = [&](const auto& test) {
+      return std::any_of(model.segments.begin(), model.segments.end(), test);
+    };
+    s.accepted =
+        !is_too_short(model, s) && !any(meets_rejected) && (!is_round(model, s) || any(meets_flat));
+  }
 }
 
 }  // namespace
@@ -194,15 +222,8 @@ void reject_furniture(Model& model) noexcept {
         s.width_m() < kLeastBeamM && s.top_m - s.bottom_m < kTallestLampM) {
       s.accepted = false;
     }
-    if (!s.accepted || !s.narrow || is_on_wider(model, s)) continue;
-    const bool round =
-        s.spread2 > kRounder * model.noise2 || is_uneven(s.spread2 / model.noise2, s.steps);
-    const float least_m = is_flat(model, s) ? kLeastFlatHeightM : kLeastHeightM;
-    const bool low = s.top_m < model.floor_z + kLowM;
-    if (round || low || s.top_m - s.bottom_m < least_m || is_side_of_rejected(model, s)) {
-      s.accepted = false;
-    }
   }
+  reject_narrow(model);
 }
 
 }  // namespace convexcut::robust
