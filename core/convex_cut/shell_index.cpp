@@ -33,7 +33,7 @@ constexpr std::size_t kMostInCache = std::size_t{1} << 19U;
 // Points that are counted at once, a fourth of them at each of four places: a dense cloud's places
 // are then in different buckets, and not whole pages apart, where they would share sets of the
 // first cache.
-constexpr std::size_t kCountedAtOnce = 4 * (8192 + 64);
+constexpr std::size_t kCountedAtOnce = 4 * std::size_t{8192 + 64};
 
 // How many points of its key each point comes after. Points that follow each other often have the
 // same key and would wait for each other's count: so they are counted in turn at four places.
