@@ -398,6 +398,24 @@ TEST(RobustRules, ANarrowFaceIsJudgedByItsOwnSpread) {
   }
 }
 
+// One face is set back in its middle, as a person's may be; the one that meets it is flat, or set
+// back as well.
+TEST(RobustRules, AFlatFaceOfAPillarSpeaksForTheOneThatMeetsIt) {
+  for (const double set_back_m : {0.0, 0.03}) {
+    BoxRoom room;
+    room.boxes = {{{1.6, 1.0, -1.2}, {1.8, 1.2, 0.9}},
+                  {{1.63, 1.2, -1.2}, {2.0, 1.4, 0.9}},
+                  {{1.8, 1.0 + set_back_m, -1.2}, {2.0, 1.2, 0.9}}};
+    Kept kept = cut(room, {.noise_m = 0.01}, 4);
+    for (int& box : kept.cloud.box) box = std::min(box, 0);
+    if (set_back_m > 0.0) {
+      EXPECT_LT(kept.share_of(0), kRemoved);
+    } else {
+      EXPECT_GT(kept.share_of(0), kKept);
+    }
+  }
+}
+
 // In a narrow corridor, where ghosts are dense: their voxels beside a wall have its shape, so that
 // their number for the range tells; of the others, their number for the window.
 TEST(RobustRules, BelievesHardlyAnyVoxelOfIsolatedGhosts) {
