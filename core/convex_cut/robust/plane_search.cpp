@@ -33,9 +33,6 @@ constexpr std::array<float, 4> kGatesM{0.10F, 0.07F, 0.05F, 0.04F};  // of the f
 constexpr float kLeastLean = 0.008F;
 constexpr float kMostLean = 0.015F;
 constexpr std::uint32_t kLargeSurfels = 150;  // of a wall; smaller ones may be anything
-// Of structure that is looked for before anything else in the next revolution.
-constexpr std::uint32_t kKnownSurfels = 60;
-constexpr float kKnownFlat = 1.2F;  // spread², relative to the noise²
 
 [[nodiscard]] std::optional<Plane> plane_through(const Surfel& surfel) noexcept {
   Vec3f n = surfel.direction;
@@ -130,18 +127,12 @@ PlaneSearch::PlaneSearch(std::size_t max_surfels)
     : left_(max_surfels), near_(max_surfels), sampled_(2 * kTested) {
   agree_.resize(max_surfels / 64 + 1);
   taken_.resize(max_surfels + SurfelColumns::kPadding);
-  known_.reserve(kMostPlanes);
 }
 
 void PlaneSearch::run(Model& model, const Vec3f& origin) noexcept {
-  take_known(model);
   model.planes.clear();
   random_ = 1;
   take_left(model);
-  for (Plane& known : known_) {
-    const std::uint32_t least = std::max(kLeastSurfels, known.surfels / 2);
-    if (refine(known) >= least) add(model, known, origin);
-  }
   int failures = 0;
   while (left_.size > kLeastSurfels && model.planes.size() < kMostPlanes &&
          failures < kMostFailures) {
@@ -156,32 +147,14 @@ void PlaneSearch::run(Model& model, const Vec3f& origin) noexcept {
       take_agreeing(left_, trial, kPlaneGateM / 2, taken_.data());
       continue;
     }
-    add(model, plane, origin);
+    if (plane.height_of(origin) < 0.0F) {
+      plane.normal = -plane.normal;
+      plane.offset = -plane.offset;
+    }
+    plane.vertical = std::abs(plane.normal.z()) < kVertical;
+    claim(model, plane);
   }
   square_walls(model);
-}
-
-void PlaneSearch::take_known(const Model& model) noexcept {
-  known_.clear();
-  for (const Plane& plane : model.planes) {
-    if (!plane.accepted || plane.surfels < kKnownSurfels ||
-        plane.spread2 > kKnownFlat * model.noise2) {
-      continue;
-    }
-    known_.emplace_back();
-    known_.back().normal = plane.normal;
-    known_.back().offset = plane.offset;
-    known_.back().surfels = plane.surfels;
-  }
-}
-
-void PlaneSearch::add(Model& model, Plane plane, const Vec3f& origin) noexcept {
-  if (plane.height_of(origin) < 0.0F) {
-    plane.normal = -plane.normal;
-    plane.offset = -plane.offset;
-  }
-  plane.vertical = std::abs(plane.normal.z()) < kVertical;
-  claim(model, plane);
 }
 
 // Large walls that lean a little against the floor were fitted through what hangs before or behind

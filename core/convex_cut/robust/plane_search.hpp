@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/convex_cut/robust/model.hpp"
 #include "core/convex_cut/robust/surfel_kernels.hpp"
@@ -25,9 +24,7 @@ class PlaneSearch {
   // Allocates about 120 bytes a surfel.
   explicit PlaneSearch(std::size_t max_surfels);
 
-  // Fills model.planes and the planes of the surfels. The same trials on every call. Large flat
-  // planes that the model has as structure, from the revolution before, are looked for first: a
-  // trial through the clutter before a wall would take some of the wall's surfels.
+  // Fills model.planes and the planes of the surfels. The same trials on every call.
   void run(Model& model, const Vec3f& origin) noexcept;
 
  private:
@@ -35,8 +32,6 @@ class PlaneSearch {
   [[nodiscard]] const SurfelColumns& sample() noexcept;
   [[nodiscard]] Plane best_trial(const Model& model) noexcept;
   [[nodiscard]] std::uint32_t refine(Plane& plane) noexcept;
-  void take_known(const Model& model) noexcept;
-  void add(Model& model, Plane plane, const Vec3f& origin) noexcept;
   void claim(Model& model, const Plane& plane) noexcept;
   static void square_walls(Model& model) noexcept;
   [[nodiscard]] std::size_t random_left() noexcept;
@@ -44,7 +39,6 @@ class PlaneSearch {
   SurfelColumns left_;     // surfels without a plane
   SurfelColumns near_;     // of these, those near the plane that is refined
   SurfelColumns sampled_;  // those that trials are tested on, where these are not all
-  std::vector<Plane> known_;
   Workspace<std::uint64_t> agree_;
   Workspace<std::uint32_t> taken_;
   std::uint64_t random_ = 0;
