@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/convex_cut/robust/plane_search.hpp"
 #include "core/convex_cut/robust/robust_cut.hpp"
 #include "tests/core/convex_cut/robust/room_cut.hpp"
 
@@ -192,44 +191,6 @@ TEST(RobustRules, AMotionThatNoPlaneHoldsDiesOut) {
   }
   EXPECT_GT(farthest, 1.5F * static_cast<float>(kStepM));
   EXPECT_LT(farthest, 8.0F * static_cast<float>(kStepM));
-}
-
-// A larger plane crosses a wall at 10 degrees, and takes what lies where they meet.
-TEST(RobustRules, AWallOfTheLastRevolutionKeepsWhatLiesOnIt) {
-  robust::Model model;
-  const auto add = [&model](const Vec3f& mean, const Vec3f& normal) {
-    robust::Surfel surfel;
-    surfel.mean = mean;
-    surfel.direction = normal;
-    surfel.points = 30;
-    surfel.shape = robust::Shape::plane;
-    surfel.supported = true;
-    model.surfels.push_back(surfel);
-  };
-  const Vec3f across = Vec3f(1.0F, 0.17F, 0.0F).normalized();
-  constexpr int kOfWall = 105;
-  for (int i = 0; i < kOfWall; ++i) {
-    add({3.0F, 0.2F * static_cast<float>(i % 21 - 10), 0.2F * static_cast<float>(i / 21)},
-        -Vec3f::UnitX());
-  }
-  for (int i = 0; i < 294; ++i) {
-    const float y = 0.2F * static_cast<float>(i % 21 - 10);
-    add({3.0F - 0.17F * (y - 0.5F), y, 0.2F * static_cast<float>(i / 21 - 5)}, -across);
-  }
-  robust::PlaneSearch search(model.surfels.size());
-  const auto most_on_one_plane = [&] {
-    std::vector<int> counts(model.planes.size());
-    for (int i = 0; i < kOfWall; ++i) {
-      const std::int32_t plane = model.surfels[static_cast<std::size_t>(i)].plane;
-      if (plane != robust::kNoPlane) ++counts[static_cast<std::size_t>(plane)];
-    }
-    return *std::max_element(counts.begin(), counts.end());
-  };
-  search.run(model, Vec3f::Zero());
-  EXPECT_LT(most_on_one_plane(), kOfWall - 5);
-  for (robust::Plane& plane : model.planes) plane.accepted = std::abs(plane.normal.x()) > 0.99F;
-  search.run(model, Vec3f::Zero());
-  EXPECT_EQ(most_on_one_plane(), kOfWall);
 }
 
 TEST(RobustRules, KeepsParallelBeamsOfTheSameHeight) {
