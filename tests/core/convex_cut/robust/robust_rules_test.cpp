@@ -107,8 +107,11 @@ TEST(RobustRules, RemovesABoardThatStandsFreeBesideLegs) {
                 {{0.9, 0.72, -1.2}, {1.0, 1.3, 1.6}}};
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
   // Together they are wider than a screen.
-  room.boxes.push_back({{1.8, -1.4, -1.2}, {1.85, -1.2, -0.6}});
-  room.boxes.push_back({{0.9, -1.3, -1.2}, {1.0, -0.72, 1.6}});
+  room.boxes = {{{1.8, -1.0, -1.2}, {1.85, 1.0, 0.7}},
+                {{1.8, 1.2, -1.2}, {1.85, 1.5, -0.8}},
+                {{1.8, -1.5, -1.2}, {1.85, -1.2, -0.8}},
+                {{0.9, 0.8, -1.2}, {1.0, 1.4, 1.6}},
+                {{0.9, -1.4, -1.2}, {1.0, -0.8, 1.6}}};
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
@@ -232,8 +235,8 @@ TEST(RobustRules, AWallBesideACupboardIsNoPaneInIt) {
   BoxRoom room;
   room.walls = {{-3.0, -3.0, -1.2}, {2.0, 3.0, 1.6}};
   room.boxes = {{{1.7, -1.0, -1.2}, {2.0, 1.0, 1.6}},
-                {{1.5, -3.0, -1.2}, {2.0, -1.0, -0.6}},
-                {{1.5, 1.0, -1.2}, {2.0, 3.0, -0.6}}};
+                {{1.5, -3.0, -1.2}, {2.0, -1.0, -0.3}},
+                {{1.5, 1.0, -1.2}, {2.0, 3.0, -0.3}}};
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
