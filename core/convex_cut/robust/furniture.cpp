@@ -18,8 +18,6 @@ constexpr float kNeighbourM = 1.0F;
 constexpr float kSameHeightM = 0.1F;
 constexpr float kDeepestRecessM = 0.35F;  // of a window
 constexpr float kSillM = 0.3F;
-constexpr float kLeastWithin = 0.2F;  // of a pane's width
-constexpr float kShelfM = 0.25F;      // no bookcase is less deep
 constexpr float kToCeilingM = 0.45F;
 constexpr float kTallerThanFurnitureM = 2.4F;
 constexpr float kLeastHeightM = 1.1F;  // of a narrow face: five cells
@@ -87,32 +85,24 @@ struct PlaneExtent {
   return along_of(plane) * along_m - plane.normal * plane.offset;
 }
 
-// A pane in a recess of the front: it begins well above the front's bottom, does not rise above its
-// top, and is not all beside it where it lies as deep as the wall behind a bookcase.
-[[nodiscard]] bool is_pane_of(const Model& model, std::size_t front, std::size_t wall,
-                              float depth_m) noexcept {
-  const PlaneExtent of_front = extent_of(model, front, false);
+// A pane in a recess of the front: it begins well above the front's bottom and does not rise above
+// its top.
+[[nodiscard]] bool is_pane_of(const Model& model, std::size_t front, std::size_t wall) noexcept {
   float bottom = 1e9F;
   float top = -1e9F;
   float front_bottom = 1e9F;
   float front_top = -1e9F;
-  float width_m = 0.0F;
-  float within_m = 0.0F;
   for (const WallSegment& s : model.segments) {
     if (s.plane == wall && s.accepted) {
       bottom = std::min(bottom, s.bottom_m);
       top = std::max(top, s.top_m);
-      width_m += s.width_m();
-      within_m +=
-          std::max(0.0F, std::min(s.end_m, of_front.end_m) - std::max(s.begin_m, of_front.begin_m));
     }
     if (s.plane == front) {
       front_bottom = std::min(front_bottom, s.bottom_m);
       front_top = std::max(front_top, s.top_m);
     }
   }
-  return bottom > front_bottom + kSillM && top < front_top + kSillM &&
-         (depth_m < kShelfM || within_m > kLeastWithin * width_m);
+  return bottom > front_bottom + kSillM && top < front_top + kSillM;
 }
 
 [[nodiscard]] bool stands_before(const Model& model, const WallSegment& front, std::size_t wall,
@@ -128,7 +118,7 @@ struct PlaneExtent {
   const bool higher = front.top_m < model.ceiling_z - kToCeilingM &&
                       top_near(model, wall, front, kReachM) > front.top_m - kSameHeightM;
   if (!fixture && tall && !higher) return false;
-  if (depth < kDeepestRecessM && is_pane_of(model, front.plane, wall, depth)) return false;
+  if (depth < kDeepestRecessM && is_pane_of(model, front.plane, wall)) return false;
   const PlaneExtent of_wall = extent_of(model, wall, true);
   if (of_wall.begin_m > front.end_m + kReachM || of_wall.end_m < front.begin_m - kReachM) {
     return false;
