@@ -33,6 +33,7 @@ class PlaneMerger {
   // Two numbers, the smaller first.
   struct Pair {
     std::uint32_t a, b;
+    // The zero of a three-way comparison is no pointer. NOLINTNEXTLINE(modernize-use-nullptr)
     friend auto operator<=>(const Pair&, const Pair&) = default;
   };
 
