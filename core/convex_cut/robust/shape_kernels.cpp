@@ -6,8 +6,6 @@
 #include <cstring>
 #include <limits>
 
-#include "core/convex_cut/robust/voxel_map.hpp"
-
 #undef HWY_TARGET_INCLUDE
 // Highway includes this file again for each instruction set.
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
@@ -47,10 +45,10 @@ struct Shift {
 constexpr auto kShifts = [] {
   std::array<Shift, Around::kMost> shifts;
   for (std::size_t step = 0; step < shifts.size(); ++step) {
-    const auto offset_m = [](std::size_t at) { return (static_cast<float>(at) - 1.0F) * kVoxelM; };
-    const float x = offset_m(step / 9);
-    const float y = offset_m(step / 3 % 3);
-    const float z = offset_m(step % 3);
+    const Lattice lattice = Neighbourhood::step_of(step);
+    const float x = static_cast<float>(lattice[0]) * kVoxelM;
+    const float y = static_cast<float>(lattice[1]) * kVoxelM;
+    const float z = static_cast<float>(lattice[2]) * kVoxelM;
     shifts[step].own = FourFloats{x, y, z, 0.0F};
     shifts[step].rows = EightFloats{0.0F, 0.0F, x, y, z, y, z, z};
     shifts[step].columns = EightFloats{0.0F, 0.0F, x, x, x, y, y, z};

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/convex_cut/robust/moments.hpp"
+#include "core/convex_cut/robust/voxel_map.hpp"
 
 namespace convexcut::robust {
 
@@ -17,10 +18,10 @@ inline constexpr std::size_t kShapesAtOnce = 16;
 
 // Voxels around one, itself among them.
 struct Around {
-  static constexpr std::size_t kMost = 27;
+  static constexpr std::size_t kMost = Neighbourhood::kCount;
   static constexpr std::uint8_t kMiddle = kMost / 2;
   std::array<const Moments*, kMost> moments;
-  std::array<std::uint8_t, kMost> step;  // 9 x + 3 y + z, each 0 … 2 from the lowest on
+  std::array<std::uint8_t, kMost> step;  // as Neighbourhood::step_of takes it
   std::size_t count = 0;
 };
 
