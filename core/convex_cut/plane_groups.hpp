@@ -16,7 +16,7 @@ class PlaneGroups {
  public:
   // More groups leave less to do at the end of a revolution, and cost more in all: points near the
   // borders are in two of them.
-  static constexpr std::uint32_t kMostGroups = 24;
+  static constexpr std::uint32_t kMostGroups = 30;
 
   // One bit a group.
   struct Reach {

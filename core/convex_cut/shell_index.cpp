@@ -189,6 +189,12 @@ void ShellIndex::add_run(std::size_t begin, std::size_t end) noexcept {
 void ShellIndex::number_keys(std::size_t run) noexcept {
   for (std::size_t strip = runs_[run].begin; strip < runs_[run].end; ++strip) {
     const std::size_t first = strip * kStripBuckets;
+    const std::uint32_t start = strip_starts_[strip];
+    // Empty, as most are where the points are in a few directions.
+    if (start == strip_starts_[strip + 1]) {
+      std::fill_n(starts_.data() + first, kStripBuckets, start);
+      continue;
+    }
     std::array<std::uint32_t, kStripBuckets> places{};
     // The counts of a part without points here stay in its thread's cache.
     const auto for_each_part = [&](auto&& visit) {
@@ -199,7 +205,7 @@ void ShellIndex::number_keys(std::size_t run) noexcept {
       }
     };
     for_each_part([](std::uint32_t& sum, std::uint32_t count) { sum += count; });
-    std::exclusive_scan(places.begin(), places.end(), places.begin(), strip_starts_[strip]);
+    std::exclusive_scan(places.begin(), places.end(), places.begin(), start);
     std::ranges::copy(places, starts_.data() + first);
     for_each_part(
         [](std::uint32_t& next, std::uint32_t& count) { next += std::exchange(count, next); });

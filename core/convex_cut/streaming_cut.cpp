@@ -2,7 +2,10 @@
 #include "core/convex_cut/streaming_cut.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "core/convex_cut/cloud_check.hpp"
@@ -11,15 +14,23 @@
 namespace convexcut {
 namespace {
 
-// A group that has got none of so many points is taken for swept: those of 16 firings, 3° of a
-// rotor at 10 Hz.
-constexpr std::size_t kIdlePoints = 512;
+// A group that has got none of so many points is taken for swept: those of 4 firings, 1° of a rotor
+// at 10 Hz.
+constexpr std::size_t kIdlePoints = 128;
 
 // During the revolution, so many late points are worth a look at all slices of a group.
-constexpr std::uint32_t kLateAtOnce = 512;
+constexpr std::uint32_t kLateAtOnce = 32;
 
 // Slices are kept for late members where one in so many points or more are near the axis.
-constexpr std::uint32_t kLeastShareNearAxis = 16;
+constexpr std::uint32_t kLeastShareNearAxis = 64;
+
+// A group is rather done again when one in so many of its points are late.
+constexpr std::uint32_t kLeastToDoAgain = 4;
+
+// Of a radius in float.
+constexpr float kRounding = 1.0F + 1e-5F;
+
+constexpr float kAnywhereM = std::numeric_limits<float>::max();
 
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
 
@@ -55,10 +66,12 @@ StreamingCut::StreamingCut(const ConvexCutParameters& parameters, std::size_t ma
       is_taken_(max_points),
       x_(max_points + kKernelPadding),
       y_(max_points + kKernelPadding),
-      z_(max_points + kKernelPadding) {
+      z_(max_points + kKernelPadding),
+      is_undecided_(max_points + kKernelPadding) {
   for (Group& group : groups_) {
     group.points.resize(max_points);
     group.marks.resize(max_points + kKernelPadding);
+    group.undecided.reserve(std::min(max_points, KeptSlices::kMostCandidates));
   }
 }
 
@@ -66,13 +79,14 @@ void StreamingCut::begin() noexcept {
   for (Group& group : groups_) {
     group.count = group.done = 0;
     group.near_axis = 0;
-    group.is_kept = false;
+    group.undecided.clear();
     group.newest = 0;
   }
   status_ = CutStatus::ok;
   size_ = 0;
   extent_m_ = 0.0F;
   ahead_ = behind_ = 0;
+  kept_groups_ = stale_groups_ = 0;
   done_ = {};
 }
 
@@ -99,12 +113,15 @@ CutStatus StreamingCut::take(const CloudView& cloud) noexcept {
 }
 
 void StreamingCut::do_swept(const CloudView& cloud) noexcept {
+  pruned_ = (pruned_ + 1) % planes_.count();
+  groups_[pruned_].undecided.prune(counts_);
   const std::uint32_t swept = ahead_ & behind_;
   for (std::uint32_t number = 0; number < groups_.size(); ++number) {
     const Group& group = groups_[number];
     const bool is_swept = (swept >> number & 1U) != 0 && size_ - group.newest > kIdlePoints;
     if (!is_swept || group.done == group.count) continue;
-    if (group.is_kept && group.count - group.done < kLateAtOnce) continue;
+    const bool is_kept = (kept_groups_ >> number & 1U) != 0;
+    if (is_kept && group.count - group.done < kLateAtOnce) continue;
     if (!take_late(cloud, number)) do_group(cloud, number);
   }
 }
@@ -135,45 +152,87 @@ void StreamingCut::load_points(const CloudView& cloud,
   }
 }
 
+// Points of a group: those near the axis come to the front, as their bounds of u are narrow.
+std::array<ShellIndex::Candidates, 2> StreamingCut::load_late(
+    const CloudView& cloud, std::span<std::uint32_t> points) noexcept {
+  const auto far = std::partition(points.begin(), points.end(), [&](std::uint32_t point) {
+    return !planes_.reach(keys_[point]).is_far;
+  });
+  load_points(cloud, points);
+  const auto count = static_cast<std::uint32_t>(points.size());
+  const auto near_count = static_cast<std::uint32_t>(far - points.begin());
+  float squared_r = 0.0F;
+  for (std::uint32_t i = 0; i < near_count; ++i) {
+    squared_r = std::max(squared_r, x_[i] * x_[i] + y_[i] * y_[i]);
+  }
+  const float r_m = std::sqrt(squared_r) * kRounding;
+  return {ShellIndex::Candidates{{0, near_count}, -r_m, r_m},
+          ShellIndex::Candidates{{near_count, count}, -kAnywhereM, kAnywhereM}};
+}
+
 // The points that have come since the group was done. False when it has to be done again.
 bool StreamingCut::take_late(const CloudView& cloud, std::uint32_t number) noexcept {
   Group& group = groups_[number];
   const std::uint32_t count = group.count - group.done;
-  if (!group.is_kept || count > KeptSlices::kMostLate) return false;
-  load_points(cloud, {group.points.data() + group.done, count});
+  const bool is_kept = ((kept_groups_ & ~stale_groups_) >> number & 1U) != 0;
+  if (!is_kept || count > KeptSlices::kMostCandidates || count * kLeastToDoAgain > group.count) {
+    return false;
+  }
+  const std::span<std::uint32_t> points(group.points.data() + group.done, count);
+  const auto ranges = load_late(cloud, points);
   std::uint8_t* const marks = group.marks.data() + group.done;
   std::fill_n(marks, count, std::uint8_t{0});
-  const KeptSlices::Late late{{group.points.data() + group.done, count},
-                              {{x_.data(), count}, {y_.data(), count}, {z_.data(), count}},
-                              {marks, count}};
+  std::fill_n(is_undecided_.data(), count, std::uint8_t{0});
+  const KeptSlices::Candidates late{{{x_.data(), count}, {y_.data(), count}, {z_.data(), count}},
+                                    std::span(ranges).first(ranges[1].range.begin < count ? 2 : 1),
+                                    {marks, count}};
   for (std::uint32_t plane = planes_.begin(number); plane < planes_.end(number); ++plane) {
-    if (!kept_.add(plane, planes_.plane(plane), late, extent_m_)) return false;
+    if (!kept_.add(plane, planes_.plane(plane), late, is_undecided_, extent_m_)) return false;
   }
   for (std::uint32_t i = 0; i < count; ++i) {
-    std::uint8_t& structure = counts_[late.points[i]];
+    std::uint8_t& structure = counts_[points[i]];
     structure = static_cast<std::uint8_t>(structure + marks[i]);
+    if (structure == 0 && is_undecided_[i] != 0) leave_undecided(cloud, number, points[i]);
   }
   group.done = group.count;
   return true;
 }
 
-// What was found without the newest points need not hold with them.
-void StreamingCut::take_back(std::uint32_t number) noexcept {
-  const Group& group = groups_[number];
+void StreamingCut::leave_undecided(const CloudView& cloud, std::uint32_t number,
+                                   std::uint32_t point) noexcept {
+  if (!groups_[number].undecided.add(cloud, point)) stale_groups_ |= 1U << number;
+}
+
+// What was found without the newest points need not hold with them. What other groups left to this
+// one, they have to decide now.
+void StreamingCut::take_back(const CloudView& cloud, std::uint32_t number) noexcept {
+  kept_groups_ &= ~(1U << number);
+  stale_groups_ &= ~(1U << number);
+  Group& group = groups_[number];
+  group.undecided.clear();
   for (std::uint32_t i = 0; i < group.done; ++i) {
-    std::uint8_t& structure = counts_[group.points[i]];
+    const std::uint32_t point = group.points[i];
+    std::uint8_t& structure = counts_[point];
     structure = static_cast<std::uint8_t>(structure - group.marks[i]);
+    if (group.marks[i] != 0 && structure == 0) reopen(cloud, point);
   }
+}
+
+void StreamingCut::reopen(const CloudView& cloud, std::uint32_t point) noexcept {
+  for_each_group(planes_.reach(keys_[point]).any & kept_groups_,
+                 [&](std::uint32_t number) { leave_undecided(cloud, number, point); });
 }
 
 void StreamingCut::do_group(const CloudView& cloud, std::uint32_t number) noexcept {
   Group& group = groups_[number];
-  take_back(number);
+  take_back(cloud, number);
   load_points(cloud, {group.points.data(), group.count});
   index_.build({{x_.data(), group.count}, {y_.data(), group.count}, {z_.data(), group.count}});
   worker_.begin(index_, extent_m_);
-  group.is_kept = group.near_axis * kLeastShareNearAxis > group.count && kept_.margin_m() > 0.0;
-  do_slices(number, group.is_kept);
+  const bool is_kept =
+      group.near_axis * kLeastShareNearAxis > group.count && kept_.margin_m() > 0.0;
+  if (is_kept) std::fill_n(is_undecided_.data(), group.count, std::uint8_t{0});
+  do_slices(number, is_kept);
   const std::span<const std::uint8_t> marks = worker_.marks();
   for (std::size_t i = 0; i < index_.size(); ++i) {
     const std::uint32_t source = index_.source(i);
@@ -182,7 +241,7 @@ void StreamingCut::do_group(const CloudView& cloud, std::uint32_t number) noexce
     structure = static_cast<std::uint8_t>(structure + marks[i]);
   }
   group.done = group.count;
-  if (group.is_kept) number_undecided(number);
+  if (is_kept) list_undecided(cloud, number);
 }
 
 void StreamingCut::do_slices(std::uint32_t number, bool keep) noexcept {
@@ -194,19 +253,22 @@ void StreamingCut::do_slices(std::uint32_t number, bool keep) noexcept {
     if (keep) {
       worker_.process_to(static_cast<float>(kept_.margin_m()), planes_.plane(plane),
                          planes_.windows(plane));
-      if (kept_.keep(plane, worker_.hull(), worker_.undecided(), worker_.tolerance_m())) continue;
+      if (kept_.keep(plane, worker_.hull(), worker_.tolerance_m())) {
+        for (const std::uint32_t position : worker_.undecided()) is_undecided_[position] = 1;
+        continue;
+      }
     }
     worker_.process(planes_.plane(plane), planes_.windows(plane));
   }
 }
 
-void StreamingCut::number_undecided(std::uint32_t number) noexcept {
+void StreamingCut::list_undecided(const CloudView& cloud, std::uint32_t number) noexcept {
   const Group& group = groups_[number];
-  const std::span<const std::uint8_t> marks = worker_.marks();
-  for (std::uint32_t plane = planes_.begin(number); plane < planes_.end(number); ++plane) {
-    kept_.renumber(plane, [&](std::uint32_t position) {
-      return marks[position] != 0 ? kNobody : group.points[index_.source(position)];
-    });
+  kept_groups_ |= 1U << number;
+  for (std::size_t i = 0; i < index_.size(); ++i) {
+    if (is_undecided_[i] == 0) continue;
+    const std::uint32_t point = group.points[index_.source(i)];
+    if (counts_[point] == 0) leave_undecided(cloud, number, point);
   }
 }
 
@@ -214,14 +276,19 @@ CutStatus StreamingCut::finish(const CloudView& cloud, std::span<Label> labels) 
   if (labels.size() != cloud.size()) return CutStatus::size_mismatch;
   if (take(cloud) != CutStatus::ok) return status_;
   const std::uint32_t all = (1U << groups_.size()) - 1;
-  std::uint32_t left = 0;
+  std::uint32_t next = 0;  // to be done again
   for_each_group(all, [&](std::uint32_t number) {
     const Group& group = groups_[number];
-    if (group.done != group.count && !take_late(cloud, number)) left |= 1U << number;
+    if (group.done != group.count && !take_late(cloud, number)) next |= 1U << number;
   });
-  for_each_group(left, [&](std::uint32_t number) { take_back(number); });
+  std::uint32_t left = 0;
+  for (next |= stale_groups_; next != 0; next = stale_groups_) {
+    left |= next;
+    kept_groups_ &= ~left;
+    for_each_group(next, [&](std::uint32_t number) { take_back(cloud, number); });
+  }
   if (left != 0) do_rest(cloud, left);
-  for_each_group(all & ~left, [&](std::uint32_t number) { decide(cloud, number); });
+  for_each_group(kept_groups_, [&](std::uint32_t number) { decide(number); });
   for (std::size_t i = 0; i < size_; ++i) {
     labels[i] = counts_[i] != 0 ? Label::structure : Label::other;
   }
@@ -250,11 +317,19 @@ void StreamingCut::do_rest(const CloudView& cloud, std::uint32_t left) noexcept 
   for (std::size_t i = 0; i < count; ++i) counts_[rest_[index_.source(i)]] = marks[i];
 }
 
-void StreamingCut::decide(const CloudView& cloud, std::uint32_t number) noexcept {
-  if (!groups_[number].is_kept) return;
+void StreamingCut::decide(std::uint32_t number) noexcept {
+  UndecidedPoints& undecided = groups_[number].undecided;
+  undecided.prune(counts_);
+  const auto count = static_cast<std::uint32_t>(undecided.points().size());
+  if (count == 0) return;
+  const std::span<std::uint8_t> marks = std::span(is_undecided_).first(count);
+  std::ranges::fill(marks, std::uint8_t{0});
+  const ShellIndex::Candidates anywhere{{0, count}, -kAnywhereM, kAnywhereM};
   for (std::uint32_t plane = planes_.begin(number); plane < planes_.end(number); ++plane) {
-    kept_.decide(plane, planes_.plane(plane), cloud, extent_m_, counts_);
+    kept_.decide(plane, planes_.plane(plane), {undecided.columns(), {&anywhere, 1}, marks},
+                 extent_m_);
   }
+  for (std::uint32_t i = 0; i < count; ++i) counts_[undecided.points()[i]] = marks[i];
 }
 
 }  // namespace convexcut

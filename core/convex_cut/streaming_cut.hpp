@@ -5,6 +5,7 @@
 // are those of reference::label() of the whole cloud, bit by bit.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,6 +17,7 @@
 #include "core/convex_cut/plane_groups.hpp"
 #include "core/convex_cut/shell_index.hpp"
 #include "core/convex_cut/slice_worker.hpp"
+#include "core/convex_cut/undecided_points.hpp"
 #include "core/workspace.hpp"
 
 namespace convexcut {
@@ -30,9 +32,9 @@ namespace convexcut {
 // One thread. RT after construction: no allocation, no lock, no system call.
 class StreamingCut {
  public:
-  // Allocates about 290 bytes a point, of which a revolution touches about half, and 5 kB a plane.
-  // Throws std::invalid_argument when the parameters are not valid or max_points exceeds 2³¹, and
-  // std::bad_alloc.
+  // Allocates about 320 bytes a point, of which a revolution touches about half, 6 kB a plane, and
+  // up to 4 MB for undecided points. Throws std::invalid_argument when the parameters are not valid
+  // or max_points exceeds 2³¹, and std::bad_alloc.
   StreamingCut(const ConvexCutParameters& parameters, std::size_t max_points);
 
   // Forgets the cloud, for a new one.
@@ -64,21 +66,25 @@ class StreamingCut {
     std::uint32_t count = 0;
     std::uint32_t done = 0;  // as many points as it was done with; 0: not yet
     std::uint32_t near_axis = 0;
-    bool is_kept = false;    // its slices are, for late members
-    std::size_t newest = 0;  // its last point that is not near the axis, in the cloud
+    UndecidedPoints undecided;  // by its kept slices; but those that other groups made structure
+    std::size_t newest = 0;     // its last point that is not near the axis, in the cloud
   };
 
   [[nodiscard]] CutStatus take(const CloudView& cloud) noexcept;
   void group_points(std::size_t end) noexcept;
   void do_swept(const CloudView& cloud) noexcept;
+  [[nodiscard]] std::array<ShellIndex::Candidates, 2> load_late(
+      const CloudView& cloud, std::span<std::uint32_t> points) noexcept;
   [[nodiscard]] bool take_late(const CloudView& cloud, std::uint32_t number) noexcept;
   void do_group(const CloudView& cloud, std::uint32_t number) noexcept;
   void do_slices(std::uint32_t number, bool keep) noexcept;
-  void number_undecided(std::uint32_t number) noexcept;
-  void take_back(std::uint32_t number) noexcept;
+  void list_undecided(const CloudView& cloud, std::uint32_t number) noexcept;
+  void take_back(const CloudView& cloud, std::uint32_t number) noexcept;
+  void leave_undecided(const CloudView& cloud, std::uint32_t number, std::uint32_t point) noexcept;
+  void reopen(const CloudView& cloud, std::uint32_t point) noexcept;
   void load_points(const CloudView& cloud, std::span<const std::uint32_t> points) noexcept;
   void do_rest(const CloudView& cloud, std::uint32_t left) noexcept;
-  void decide(const CloudView& cloud, std::uint32_t number) noexcept;
+  void decide(std::uint32_t number) noexcept;
 
   float inverse_squared_half_width_;
   std::size_t max_points_;
@@ -93,12 +99,16 @@ class StreamingCut {
   float extent_m_ = 0.0F;    // the greatest magnitude of a coordinate
   std::uint32_t ahead_ = 0;  // groups that have points on this side
   std::uint32_t behind_ = 0;
+  std::uint32_t kept_groups_ = 0;   // their slices are kept for late members
+  std::uint32_t stale_groups_ = 0;  // kept, but have to be done again
+  std::uint32_t pruned_ = 0;        // whose undecided points were looked at last
   Done done_;
-  Workspace<std::uint16_t> keys_;     // of ShellIndex
-  Workspace<std::uint8_t> counts_;    // of each point: groups that made it structure
-  Workspace<std::uint32_t> rest_;     // points of the groups that are left at the end
-  Workspace<std::uint8_t> is_taken_;  // of each point: it is among them
-  Workspace<float> x_, y_, z_;        // of the points at hand
+  Workspace<std::uint16_t> keys_;         // of ShellIndex
+  Workspace<std::uint8_t> counts_;        // of each point: groups that made it structure
+  Workspace<std::uint32_t> rest_;         // points of the groups that are left at the end
+  Workspace<std::uint8_t> is_taken_;      // of each point: it is among them
+  Workspace<float> x_, y_, z_;            // of the points at hand
+  Workspace<std::uint8_t> is_undecided_;  // of these
 };
 
 }  // namespace convexcut

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference's hull against the definition, and the engine's against the reference's. The
+// The reference's hull against the definition, the engine's and one that grows against it. The
 // definition is tried on integer coordinates only, where it can be evaluated without rounding.
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/convex_cut/convex_hull.hpp"
+#include "core/convex_cut/kept_hull.hpp"
 #include "core/convex_cut/reference.hpp"
 #include "tests/core/convex_cut/clouds.hpp"
 
@@ -55,6 +56,14 @@ namespace {
     point = {std::floor(random.uniform(-side, side)), std::floor(random.uniform(-side, side))};
   }
   return points;
+}
+
+[[nodiscard]] std::vector<SlicePoint> corners_from_the_least(const KeptHull& hull) {
+  const Polygon polygon = hull.polygon();
+  std::vector<SlicePoint> corners;
+  for (std::size_t k = 0; k < polygon.size; ++k) corners.push_back({polygon.u[k], polygon.z[k]});
+  std::ranges::rotate(corners, std::min_element(corners.begin(), corners.end()));
+  return corners;
 }
 
 TEST(ReferenceHull, HasTheVerticesThatTheDefinitionGives) {
@@ -106,6 +115,38 @@ TEST(ConvexHull, IsTheReferencesVertexByVertex) {
     std::vector<SlicePoint> vertices(points.size() + 1);
     const std::span<const SlicePoint> found = convex_hull(std::span(points), std::span(vertices));
     ASSERT_TRUE(std::ranges::equal(found, expected)) << i;
+  }
+}
+
+// A few integer coordinates: collinear and equal points are common. Many: long runs of corners go.
+TEST(KeptHull, IsTheConvexHullOfAllItsPoints) {
+  test::Random random(17);
+  KeptHull kept;
+  for (int repetition = 0; repetition < 2'000; ++repetition) {
+    const double side = repetition % 2 == 0 ? 4.0 : 1e4;
+    std::vector<SlicePoint> points = random_points(random, 3 + random.index(40), side);
+    std::vector<SlicePoint> vertices(points.size() + 40);
+    const auto hull_of_points = [&] {
+      std::vector<SlicePoint> sorted = points;
+      return convex_hull(std::span(sorted), std::span(vertices));
+    };
+    const std::span<const SlicePoint> first = hull_of_points();
+    if (first.size() < 3) continue;
+    std::vector<double> u, z;
+    for (const SlicePoint& vertex : first) {
+      u.push_back(vertex.u);
+      z.push_back(vertex.z);
+    }
+    kept.set({u.data(), z.data(), u.size()});
+    for (const SlicePoint& point : random_points(random, 10, 1.5 * side)) {
+      points.push_back(point);
+      const std::vector<SlicePoint> before = corners_from_the_least(kept);
+      const bool is_larger = kept.add(point);
+      const std::span<const SlicePoint> hull = hull_of_points();
+      const std::vector<SlicePoint> expected(hull.begin(), hull.end());
+      EXPECT_EQ(corners_from_the_least(kept), expected);
+      EXPECT_EQ(is_larger, before != expected);
+    }
   }
 }
 

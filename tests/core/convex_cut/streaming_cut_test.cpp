@@ -166,6 +166,64 @@ TEST(StreamingCut, APointThatComesIntoADoneSliceTakesLabelsBack) {
   EXPECT_FALSE(before == expected);
 }
 
+// A round room whose floor is 2 cm higher towards 40° and 220°, and `count` points on the axis.
+// They are 5 cm above the higher floor, structure for good by the slice of 40°, and 7 cm above the
+// rest of it: the other slices leave them undecided, with e = 8 cm.
+[[nodiscard]] test::Cloud room_with_steps(std::size_t count) {
+  test::Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i) cloud.add(0.0, 0.0, -0.93);
+  for (int i = 0; i < 3'600; ++i) {
+    const double azimuth_deg = 0.1 * i;
+    const bool is_step = std::abs(std::fmod(azimuth_deg, 180.0) - 40.0) < 1.2;
+    const double azimuth = azimuth_deg * std::numbers::pi / 180.0;
+    for (const double z : {is_step ? -0.98 : -1.0, 1.0}) {
+      cloud.add(3.0 * std::cos(azimuth), 3.0 * std::sin(azimuth), z);
+    }
+  }
+  for (int i = 0; i < 400; ++i) cloud.add(0.0, 0.0, 0.0);
+  return cloud;
+}
+
+// Towards 40°, 3 m away.
+void add_hole(test::Cloud& cloud) {
+  const double azimuth = 40.0 * std::numbers::pi / 180.0;
+  cloud.add(3.0 * std::cos(azimuth), 3.0 * std::sin(azimuth), -1.5);
+}
+
+// A hole in the floor, seen at the end, takes away what that slice made structure. The
+// other slices had left these points to it: a few, or more than they have room for.
+TEST(StreamingCut, WhatASliceDoneAgainNoLongerMakesStructureOthersDecide) {
+  const ConvexCutParameters parameters{.planes = 180};
+  for (const std::size_t count : {100U, 9'000U}) {
+    SCOPED_TRACE(count);
+    test::Cloud cloud = room_with_steps(count);
+    StreamingCut cut(parameters, cloud.size() + 1);
+    test::Random random(9);
+    add_in_pieces(cut, cloud, random, 384);
+    ASSERT_GE(cut.done().slices, 180U);
+    add_hole(cloud);
+    std::vector<Label> expected(cloud.size());
+    ASSERT_EQ(reference::label(parameters, cloud.view(), expected), CutStatus::ok);
+    ASSERT_EQ(expected[0], Label::structure);
+    std::vector<Label> labels(cloud.size());
+    const std::uint32_t before = cut.done().slices;
+    ASSERT_EQ(cut.finish(cloud.view(), labels), CutStatus::ok);
+    EXPECT_TRUE(labels == expected);
+    EXPECT_EQ(cut.done().slices - before < 20U, count == 100U);
+  }
+}
+
+TEST(StreamingCut, SlicesThatLeaveMorePointsUndecidedThanThereIsRoomFor) {
+  const test::Cloud room = room_with_steps(9'000);
+  test::Cloud cloud;
+  add_hole(cloud);
+  for (std::size_t k = 0; k < room.size(); ++k) cloud.add_from(room, k);
+  const ConvexCutParameters parameters{.planes = 60};
+  StreamingCut cut(parameters, cloud.size());
+  test::Random random(10);
+  expect_reference_labels_in_pieces(cut, parameters, cloud, random, 384);
+}
+
 TEST(StreamingCut, OneAfterTheOther) {
   StreamingCut cut({.planes = 30}, 40'000);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
