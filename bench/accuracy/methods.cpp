@@ -96,8 +96,10 @@ std::vector<NamedMethod> ablations() {
       without("no free space", "every plane is kept", &RobustParameters::free_space),
       without("no furniture rule", "fronts before walls are kept", &RobustParameters::furniture),
       without("no fixture rule", "what is flat on a wall is kept", &RobustParameters::fixtures),
+      without("no pillars", "planes only", &RobustParameters::pillars),
       without("no curved part", "planes only", &RobustParameters::curved),
       without("no mirror test", "mirror images are kept", &RobustParameters::mirrors),
+      without("no memory of verdicts", "each revolution decides alone", &RobustParameters::steady),
       without("no upright correction", "gravity is believed", &RobustParameters::upright),
       without("no alignment", "each revolution's pose is believed", &RobustParameters::align)};
 }

@@ -21,15 +21,27 @@ constexpr double kNoiseM = 0.02;
 constexpr double kIndependent = 0.05;
 constexpr double kRotationSigma = 0.01;  // radians
 
-// Of the planes that p is near, the nearest that has structure there, or kNoPlane.
+// What stands holds the pose whether it is structure or not, but no rings of the lidar.
+[[nodiscard]] std::uint64_t surfaces(const Model& model) noexcept {
+  std::uint64_t set = 0;
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    const Plane& plane = model.planes[k];
+    set |= std::uint64_t{plane.accepted || !plane.edge_on ? 1U : 0U} << k;
+  }
+  return set;
+}
+
+// Of the planes that p is near, the nearest that was seen there, or kNoPlane.
 [[nodiscard]] std::int32_t plane_at(const Model& model, const PlaneGrids& grids, const Vec3f& p,
                                     std::uint64_t near, float gate_m) noexcept {
   std::int32_t nearest = kNoPlane;
   float least = gate_m;
   for (; near != 0; near &= near - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(near));
-    const float height = std::abs(model.planes[k].height_of(p));
-    if (height >= least || !grids.is_beside_structure(k, p)) continue;
+    const Plane& plane = model.planes[k];
+    const float height = std::abs(plane.height_of(p));
+    if (height >= least) continue;
+    if (plane.accepted ? !grids.is_beside_structure(k, p) : !grids.is_seen(k, p)) continue;
     least = height;
     nearest = static_cast<std::int32_t>(k);
   }
@@ -41,7 +53,7 @@ constexpr double kRotationSigma = 0.01;  // radians
 struct Alignment::Equations {
   Mat6 information = Mat6::Zero();  // its lower triangle
   Vec6 gradient = Vec6::Zero();
-  std::size_t points = 0;
+  std::size_t structure = 0;  // points on it
 
   void add(const Vec3f& from_rig, const Plane& plane, float height_m) noexcept {
     Vec6 j;
@@ -55,7 +67,7 @@ struct Alignment::Equations {
       }
     }
     gradient += weight * height * j;
-    ++points;
+    structure += plane.accepted ? 1U : 0U;
   }
 };
 
@@ -81,10 +93,11 @@ Alignment::Equations Alignment::equations_at(const RigPose& pose, const Model& m
                                              const PlaneGrids& grids, float gate_m) const noexcept {
   Equations equations;
   MovedPoints moved;
+  const std::uint64_t asked = surfaces(model);
   PlaneSets near;
   for (std::size_t begin = 0; begin < samples_; begin += kPointsAtOnce) {
     move_points({&x_[begin], &y_[begin], &z_[begin]}, &from_middle_[begin], pose, moved);
-    find_planes(moved.columns(), model.planes, gate_m, near);
+    find_planes(moved.columns(), model.planes, asked, gate_m, near);
     for (std::size_t i = 0; i < std::min(kPointsAtOnce, samples_ - begin); ++i) {
       const Vec3f p(moved.x[i], moved.y[i], moved.z[i]);
       const std::int32_t k = plane_at(model, grids, p, near[i], gate_m);
@@ -109,7 +122,7 @@ std::optional<RigPose> Alignment::find(const CloudView& cloud, const Model& mode
   std::size_t fitting = 0;
   for (const float gate_m : kGatesM) {
     Equations equations = equations_at(pose, model, grids, gate_m);
-    fitting = equations.points;
+    fitting = equations.structure;
     equations.information.diagonal() += prior;
     equations.gradient += prior.cwiseProduct(moved);
     const Vec6 step = -equations.information.ldlt().solve(equations.gradient);

@@ -17,9 +17,9 @@ class Alignment {
  public:
   Alignment();
 
-  // Moves a pose so that the cloud lies on the model's accepted planes, by least squares of the
-  // points' distances; where the planes do not hold it, it stays. position_sigma_m: how far the
-  // guess may be off. None: the cloud fits less than `least_share` of its points to the planes. RT:
+  // Moves a pose so that the cloud lies on the model's planes, structure or not, by least squares
+  // of the points' distances; where the planes do not hold it, it stays. position_sigma_m: how far
+  // the guess may be off. None: less than `least_share` of the cloud's points lie on structure. RT:
   // no allocation, no lock, no system call.
   [[nodiscard]] std::optional<RigPose> find(const CloudView& cloud, const Model& model,
                                             const PlaneGrids& grids, const RigPose& guess,

@@ -68,10 +68,11 @@ void mark_before(const Model& model, PlaneGrids& grids, const Surfel& surfel,
 
 void mark_backs(const Model& model, PlaneGrids& grids) noexcept {
   const Rays& rays = grids.rays();
+  const std::uint64_t accepted = accepted_planes(model.planes);
   PlaneSets near;
   for (std::size_t begin = 0; begin < rays.size(); begin += kPointsAtOnce) {
     find_planes({rays.column(3) + begin, rays.column(4) + begin, rays.column(5) + begin},
-                model.planes, kFarthestM, near);
+                model.planes, accepted, kFarthestM, near);
     for (std::size_t i = 0; i < std::min(kPointsAtOnce, rays.size() - begin); ++i) {
       const Surfel& surfel = model.surfels[rays.surfel(begin + i)];
       if (near[i] != 0 && !is_on_structure(model, grids, surfel.mean, near[i])) {

@@ -18,11 +18,15 @@ constexpr float kBinM = 0.004F;
 constexpr std::size_t kBins = 41;  // ±8 cm
 constexpr std::size_t kMiddleBin = kBins / 2;
 constexpr float kToFloorM = 0.4F;
+constexpr float kHiddenM = 0.9F;  // over the floor: a door's foot, by a table or a chair
+constexpr float kLeastDoorTopM = 1.7F;
+constexpr float kMostDoorTopM = 2.4F;
 constexpr float kDoorHeightM = 1.5F;
-constexpr float kRoomHighM = 2.2F;  // a layer as high as that is a part of the wall
-constexpr float kLeastDoorM = 0.5F;
-constexpr float kMostDoorM = 1.3F;
-constexpr float kSolid = 0.7F;  // share of its rectangle that a door covers
+constexpr float kHalfDoorHeightM = 1.0F;  // of one whose foot is hidden
+constexpr float kRoomHighM = 2.2F;        // a layer as high as that is a part of the wall
+constexpr std::int32_t kLeastDoorColumns = 2;
+constexpr std::int32_t kMostDoorColumns = 5;
+constexpr float kSolid = 0.7F;  // share of its columns that a door covers
 
 // Whether rays go through the plane there.
 [[nodiscard]] bool is_hole(const Cell& cell) noexcept {
@@ -104,7 +108,8 @@ void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
       for (std::int32_t column = 0; column < grid.columns; ++column) {
         if (!is_off(grids.cell(grid, column, row), plane.face_m)) continue;
         collect_layer(grids, grid, plane.face_m, {column, row});
-        if (layer_.size() >= kLeastCells && !is_of_the_wall(model, plane, grid) &&
+        leave_out_doors(model, grids, k);
+        if (layer_.size() >= kLeastCells &&
             (is_in_front(grids, grid) || is_in_a_recess(grids, grid, plane.face_m))) {
           continue;
         }
@@ -157,21 +162,61 @@ bool Fixtures::is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid,
   return 2 * hanging > layer_.size() || 2 * framed > layer_.size();
 }
 
-bool Fixtures::is_of_the_wall(const Model& model, const Plane& plane,
-                              const PlaneGrid& grid) const noexcept {
-  Place low = layer_.front();
-  Place high = low;
-  for (const Place& at : layer_) {
-    low = {std::min(low.column, at.column), std::min(low.row, at.row)};
-    high = {std::max(high.column, at.column), std::max(high.row, at.row)};
+// Column by column: a board beside a door, a cell away, is in the same layer.
+void Fixtures::leave_out_doors(const Model& model, PlaneGrids& grids, std::size_t plane) noexcept {
+  if (std::isinf(model.floor_z)) return;
+  const PlaneGrid& grid = grids.grid(plane);
+  std::sort(layer_.begin(), layer_.end(), [](const Place& a, const Place& b) {
+    return a.column < b.column || (a.column == b.column && a.row < b.row);
+  });
+  const auto end_of_column = [&](std::size_t first) {
+    std::size_t end = first;
+    while (end < layer_.size() && layer_[end].column == layer_[first].column) ++end;
+    return end;
+  };
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < layer_.size();) {
+    const Upright upright = upright_of(model, grids, plane, first, end_of_column(first));
+    std::size_t end = end_of_column(first);
+    std::int32_t columns = 1;
+    while (upright != Upright::none && end < layer_.size() &&
+           layer_[end].column == layer_[end - 1].column + 1 &&
+           upright_of(model, grids, plane, end, end_of_column(end)) == upright) {
+      end = end_of_column(end);
+      ++columns;
+    }
+    const bool of_the_wall =
+        upright == Upright::wall ||
+        (upright == Upright::door && columns >= kLeastDoorColumns && columns <= kMostDoorColumns);
+    for (; first < end; ++first) {
+      const Place at = layer_[first];
+      if (of_the_wall) grids.cell(grid, at.column, at.row).layer_m = 0.0F;
+      if (!of_the_wall) layer_[kept++] = at;
+    }
   }
-  const float bottom = grid.centre(plane, low.column, low.row).z() - kCellM / 2;
-  const float width = static_cast<float>(high.column - low.column + 1) * kCellM;
-  const float height = static_cast<float>(high.row - low.row + 1) * kCellM;
-  const float solid = static_cast<float>(layer_.size()) * kCellM * kCellM / (width * height);
-  if (std::isinf(model.floor_z) || bottom > model.floor_z + kToFloorM) return false;
-  const bool like_a_door = height >= kDoorHeightM && width >= kLeastDoorM && width <= kMostDoorM;
-  return (like_a_door || height >= kRoomHighM) && solid >= kSolid;
+  layer_.resize(kept);
+}
+
+// Of one column of the layer.
+Fixtures::Upright Fixtures::upright_of(const Model& model, const PlaneGrids& grids,
+                                       std::size_t plane, std::size_t first,
+                                       std::size_t end) const noexcept {
+  const PlaneGrid& grid = grids.grid(plane);
+  const Place low = layer_[first];
+  const std::int32_t high = layer_[end - 1].row;
+  const float bottom_m =
+      grid.centre(model.planes[plane], low.column, low.row).z() - kCellM / 2 - model.floor_z;
+  const float height_m = static_cast<float>(high - low.row + 1) * kCellM;
+  const float top_m = bottom_m + height_m;
+  if (static_cast<float>(end - first) * kCellM < kSolid * height_m) return Upright::none;
+  if (bottom_m <= kToFloorM && height_m >= kRoomHighM) return Upright::wall;
+  if (bottom_m <= kToFloorM) return height_m >= kDoorHeightM ? Upright::door : Upright::none;
+  const Surroundings around =
+      surroundings_of(grids, grid, model.planes[plane].face_m, low.column, low.row);
+  const bool is_door = bottom_m <= kHiddenM && !around.below && !around.hole &&
+                       height_m >= kHalfDoorHeightM && top_m >= kLeastDoorTopM &&
+                       top_m <= kMostDoorTopM;
+  return is_door ? Upright::door : Upright::none;
 }
 
 }  // namespace convexcut::robust

@@ -11,8 +11,8 @@ namespace convexcut::robust {
 
 // What lies flat on a wall or in a recess of it, nearer than a band can tell: pictures, boards,
 // blinds, the backs of bookcases. The mean of a cell's points is known to millimetres, so connected
-// cells that are off the wall's face together show a layer. One that stands on the floor like a
-// door, or is as high as the room, is a part of the wall.
+// cells that are off the wall's face together show a layer. What of it stands on the floor like a
+// door, or is as high as the room, is a part of the wall; a board beside it may be none.
 class Fixtures {
  public:
   Fixtures();
@@ -24,12 +24,14 @@ class Fixtures {
   struct Place {
     std::int32_t column, row;
   };
+  enum class Upright : std::uint8_t { none, door, wall };
+  [[nodiscard]] Upright upright_of(const Model& model, const PlaneGrids& grids, std::size_t plane,
+                                   std::size_t first, std::size_t end) const noexcept;
   void collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float face_m, Place seed) noexcept;
   [[nodiscard]] bool is_in_front(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept;
   [[nodiscard]] bool is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid,
                                     float face_m) const noexcept;
-  [[nodiscard]] bool is_of_the_wall(const Model& model, const Plane& plane,
-                                    const PlaneGrid& grid) const noexcept;
+  void leave_out_doors(const Model& model, PlaneGrids& grids, std::size_t plane) noexcept;
 
   std::vector<Place> layer_;  // also the queue of the search for it
 };

@@ -25,7 +25,8 @@ constexpr float kLowM = 1.0F;          // over the floor: sides of desks, seen b
 constexpr float kLeastFlatHeightM = 0.9F;  // of a flat one: four
 constexpr float kFlat = 1.2F;              // spread², relative to the noise²
 constexpr float kFewSteps = 0.15F;
-constexpr float kTouchM = 0.4F;
+constexpr float kTouchM = 0.5F;
+constexpr float kWidestSideM = 2.5F;
 constexpr float kSameTopM = 0.6F;
 constexpr float kRounder = 1.7F;   // spread², relative to the noise²
 constexpr float kHangingM = 1.6F;  // over the floor
@@ -131,20 +132,38 @@ struct PlaneExtent {
   return (beyond || above) && (wide || fixture);
 }
 
-// Whether two faces of about the same height meet at an edge.
-[[nodiscard]] bool meets(const Model& model, const WallSegment& face,
-                         const WallSegment& other) noexcept {
+// Whether another face of about the same height meets this one's end at an edge.
+[[nodiscard]] bool meets_at(const Model& model, const WallSegment& face, float end_m,
+                            const WallSegment& other) noexcept {
   const Plane& plane = model.planes[face.plane];
   const Plane& across = model.planes[other.plane];
   if (std::abs(across.normal.dot(plane.normal)) > 0.5F) return false;
   if (std::abs(other.top_m - face.top_m) > kSameTopM) return false;
-  for (const float m : {other.begin_m, other.end_m}) {
-    const Vec3f edge = point_of(across, m);
-    for (const float end_m : {face.begin_m, face.end_m}) {
-      if ((point_of(plane, end_m) - edge).head<2>().norm() < kTouchM) return true;
-    }
-  }
-  return false;
+  const Vec3f end = point_of(plane, end_m);
+  return (point_of(across, other.begin_m) - end).head<2>().norm() < kTouchM ||
+         (point_of(across, other.end_m) - end).head<2>().norm() < kTouchM;
+}
+
+[[nodiscard]] bool meets(const Model& model, const WallSegment& face,
+                         const WallSegment& other) noexcept {
+  return meets_at(model, face, face.begin_m, other) || meets_at(model, face, face.end_m, other);
+}
+
+// A side of furniture (a stand's, a cubicle's) meets it at one end, and no wall at the other one,
+// that rays pass beside.
+[[nodiscard]] bool is_side(const Model& model, const WallSegment& s) noexcept {
+  if (s.top_m > model.ceiling_z - kToCeilingM || s.width_m() > kWidestSideM) return false;
+  const auto any_at = [&](float end_m, const auto& test) {
+    return std::any_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& other) {
+      return test(other) && meets_at(model, s, end_m, other);
+    });
+  };
+  const auto is_furniture = [](const WallSegment& other) { return other.furniture; };
+  const auto is_wall = [](const WallSegment& other) { return other.accepted; };
+  const auto is = [&](float from_m, float free_m) {
+    return any_at(from_m, is_furniture) && !any_at(free_m, is_wall);
+  };
+  return (s.free_end && is(s.begin_m, s.end_m)) || (s.free_begin && is(s.end_m, s.begin_m));
 }
 
 // Whether its plane has a wide part that is a wall.
@@ -212,6 +231,9 @@ void reject_furniture(Model& model) noexcept {
         s.width_m() < kLeastBeamM && s.top_m - s.bottom_m < kTallestLampM) {
       s.accepted = false;
     }
+  }
+  for (WallSegment& s : model.segments) {
+    s.accepted = s.accepted && !is_side(model, s);
   }
   reject_narrow(model);
 }

@@ -57,8 +57,9 @@ struct WallSegment {
   float spread2 = 0.0F;                 // m², of its points about the plane
   float steps = 0.0F;                   // share of neighbouring cells that are not equally deep
   bool accepted = false;
-  bool narrow = false;     // may be a pillar or a person
-  bool furniture = false;  // a wall is close behind
+  bool narrow = false;                        // may be a pillar or a person
+  bool free_begin = false, free_end = false;  // rays pass beside it
+  bool furniture = false;                     // a wall is close behind
 
   [[nodiscard]] float width_m() const noexcept { return end_m - begin_m; }
 };

@@ -19,6 +19,8 @@ struct RobustParameters {
   bool fixtures = true;    // what is mounted flat on a wall is no wall
   bool mirrors = true;     // what is a wall's mirror image is none
   bool curved = true;      // what goes on smoothly from a wall is one
+  bool steady = true;      // what was decided in earlier revolutions has a say
+  bool pillars = true;     // compact tall footprints are structure
   bool free_space = true;  // a surface must bound the free space; without, all planes are kept
 };
 

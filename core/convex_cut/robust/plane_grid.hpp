@@ -118,6 +118,13 @@ class PlaneGrids {
   [[nodiscard]] bool is_within_reach(std::size_t plane, const Vec3f& p) const noexcept {
     return (reach_at(plane, p) & kWithinReach) != 0;
   }
+  // Whether anything of the plane was seen in the cell at p.
+  [[nodiscard]] bool is_seen(std::size_t plane, const Vec3f& p) const noexcept {
+    const PlaneGrid& g = grids_[plane];
+    const std::int32_t column = g.column_of(p);
+    const std::int32_t row = g.row_of(p);
+    return g.holds(column, row) && cell(g, column, row).seen > 0;
+  }
   // Once mark_reach() was called: the layer of the cell at p, or the greatest of those beside it;
   // 0: none.
   [[nodiscard]] float layer_near(std::size_t plane, const Vec3f& p) const noexcept;

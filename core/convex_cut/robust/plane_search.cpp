@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -28,10 +29,11 @@ constexpr double kLine2 = 0.02;
 constexpr float kMostWeight = 20.0F;
 constexpr float kRefineReachM = 0.3F;
 constexpr std::array<float, 4> kGatesM{0.10F, 0.07F, 0.05F, 0.04F};  // of the fit, one by one
-// Of a wall, against the floor: less is the noise of its fit, and more the wall's own, which would
-// be off by more than 2 cm at floor and ceiling.
+// Of a wall, against the floor: less is the noise of its fit, and more the wall's own. So is what
+// is farther off at floor and ceiling than things hang before a wall, or blinds behind it.
 constexpr float kLeastLean = 0.008F;
-constexpr float kMostLean = 0.015F;
+constexpr float kMostLean = 0.025F;
+constexpr float kMostOffM = 0.035F;
 constexpr std::uint32_t kLargeSurfels = 150;  // of a wall; smaller ones may be anything
 
 [[nodiscard]] std::optional<Plane> plane_through(const Surfel& surfel) noexcept {
@@ -105,9 +107,16 @@ class WeightedSums {
   return sums;
 }
 
-// Of its surfels within the last gate, by weight.
-[[nodiscard]] Vec3f mean_near(const Model& model, std::size_t plane) noexcept {
+struct Middle {
+  Vec3f mean = Vec3f::Zero();
+  float half_height_m = 0.0F;
+};
+
+// Of the plane's surfels within the last gate, by weight.
+[[nodiscard]] Middle middle_of(const Model& model, std::size_t plane) noexcept {
   float weights = 0.0F;
+  float bottom_m = std::numeric_limits<float>::max();
+  float top_m = std::numeric_limits<float>::lowest();
   Vec3f sum = Vec3f::Zero();
   for (const Surfel& surfel : model.surfels) {
     if (surfel.plane != static_cast<std::int32_t>(plane) ||
@@ -117,8 +126,10 @@ class WeightedSums {
     const float weight = std::min(static_cast<float>(surfel.points), kMostWeight);
     weights += weight;
     sum += weight * surfel.mean;
+    bottom_m = std::min(bottom_m, surfel.mean.z());
+    top_m = std::max(top_m, surfel.mean.z());
   }
-  return sum / std::max(weights, 1.0F);
+  return {sum / std::max(weights, 1.0F), (top_m - bottom_m) / 2};
 }
 
 }  // namespace
@@ -174,9 +185,10 @@ void PlaneSearch::square_walls(Model& model) noexcept {
         std::abs(lean) > kMostLean) {
       continue;
     }
-    const Vec3f mean = mean_near(model, k);
+    const Middle middle = middle_of(model, k);
+    if (std::abs(lean) * middle.half_height_m > kMostOffM) continue;
     plane.normal = (plane.normal - lean * up).normalized();
-    plane.offset = -plane.normal.dot(mean);
+    plane.offset = -plane.normal.dot(middle.mean);
   }
 }
 

@@ -108,15 +108,15 @@ void move_cloud(const CloudView& cloud, std::size_t begin, const RigPose& pose,
   });
 }
 
-// The planes from `first` on that are accepted and within the gate, a bit each.
-HWY_INLINE Word near_planes(std::span<const Plane> planes, std::size_t first, Float x, Float y,
-                            Float z, Float gate) noexcept {
+// The planes from `first` on that are asked for and within the gate, a bit each.
+HWY_INLINE Word near_planes(std::span<const Plane> planes, std::uint64_t asked, std::size_t first,
+                            Float x, Float y, Float z, Float gate) noexcept {
   const Floats df;
   const Words dw;
   Word near = hn::Zero(dw);
   for (std::size_t k = first; k < std::min(planes.size(), first + 32); ++k) {
     const Plane& plane = planes[k];
-    if (!plane.accepted) continue;
+    if ((asked >> k & 1U) == 0) continue;
     const Float along = lanes_of::dot(hn::Set(df, plane.normal.x()), hn::Set(df, plane.normal.y()),
                                       hn::Set(df, plane.normal.z()), x, y, z);
     const auto is_near = hn::Le(hn::Abs(hn::Add(along, hn::Set(df, plane.offset))), gate);
@@ -143,8 +143,8 @@ void move_points(const PointColumns points, const float* from_middle, const RigP
   }
 }
 
-void find_planes(const PointColumns points, std::span<const Plane> planes, float gate_m,
-                 PlaneSets& found) {
+void find_planes(const PointColumns points, std::span<const Plane> planes, std::uint64_t asked,
+                 float gate_m, PlaneSets& found) {
   const Floats df;
   const Words dw;
   const Float gate = hn::Set(df, gate_m);
@@ -152,8 +152,8 @@ void find_planes(const PointColumns points, std::span<const Plane> planes, float
     const Float x = hn::LoadU(df, points.x + i);
     const Float y = hn::LoadU(df, points.y + i);
     const Float z = hn::LoadU(df, points.z + i);
-    hn::Store(near_planes(planes, 0, x, y, z, gate), dw, &found.low[i]);
-    hn::Store(near_planes(planes, 32, x, y, z, gate), dw, &found.high[i]);
+    hn::Store(near_planes(planes, asked, 0, x, y, z, gate), dw, &found.low[i]);
+    hn::Store(near_planes(planes, asked, 32, x, y, z, gate), dw, &found.high[i]);
   }
 }
 
@@ -184,9 +184,17 @@ void move_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
   HWY_DYNAMIC_DISPATCH(move_cloud)(cloud, begin, pose, moved);
 }
 
-void find_planes(const PointColumns& points, std::span<const Plane> planes, float gate_m,
-                 PlaneSets& found) noexcept {
-  HWY_DYNAMIC_DISPATCH(find_planes)(points, planes, gate_m, found);
+std::uint64_t accepted_planes(std::span<const Plane> planes) noexcept {
+  std::uint64_t accepted = 0;
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    accepted |= std::uint64_t{planes[k].accepted ? 1U : 0U} << k;
+  }
+  return accepted;
+}
+
+void find_planes(const PointColumns& points, std::span<const Plane> planes, std::uint64_t asked,
+                 float gate_m, PlaneSets& found) noexcept {
+  HWY_DYNAMIC_DISPATCH(find_planes)(points, planes, asked, gate_m, found);
 }
 
 }  // namespace convexcut::robust

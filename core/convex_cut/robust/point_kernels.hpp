@@ -49,7 +49,7 @@ void move_points(const PointColumns& points, const float* from_middle, const Rig
 void move_points(const CloudView& cloud, std::size_t begin, const RigPose& pose,
                  MovedPoints& moved) noexcept;
 
-// Sets of accepted planes, as bits, the first plane lowest.
+// Sets of planes, as bits, the first plane lowest.
 class PlaneSets {
  public:
   [[nodiscard]] std::uint64_t operator[](std::size_t i) const noexcept {
@@ -58,9 +58,12 @@ class PlaneSets {
   alignas(64) std::array<std::uint32_t, kPointsAtOnce> low, high;  // planes 0 … 31, 32 … 63
 };
 
-// Of kPointsAtOnce points each, the accepted planes that are at most gate_m away. At most 64
-// planes.
-void find_planes(const PointColumns& points, std::span<const Plane> planes, float gate_m,
-                 PlaneSets& found) noexcept;
+// Of at most 64.
+[[nodiscard]] std::uint64_t accepted_planes(std::span<const Plane> planes) noexcept;
+
+// Of kPointsAtOnce points each, the planes of the set `asked` that are at most gate_m away. At most
+// 64 planes.
+void find_planes(const PointColumns& points, std::span<const Plane> planes, std::uint64_t asked,
+                 float gate_m, PlaneSets& found) noexcept;
 
 }  // namespace convexcut::robust

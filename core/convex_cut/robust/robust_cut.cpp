@@ -27,8 +27,8 @@ constexpr std::size_t kMostWindowVoxels = 131'072;  // of all
 constexpr std::size_t kNewVoxels = 2'048;           // of a further revolution: twice a hall's
 constexpr std::size_t kMostSegments = 2'048;
 
-constexpr float kUnknownMotionM = 0.10F;  // in a revolution, one sigma
-constexpr float kKnownMotionM = 0.02F;
+// From one revolution to the next, one sigma: by how much a step may differ from the one before.
+constexpr float kStepChangeM = 0.02F;
 constexpr float kLeastFilled = 0.018F;  // of what a surface across the beams would return
 constexpr float kViewSr = 4.5F;         // steradians, of an HDL-32E
 constexpr float kLeastOfLastShare = 0.5F;
@@ -83,7 +83,8 @@ RobustCut::RobustCut(const RobustParameters& parameters, std::size_t max_points)
       plane_search_(window_voxels(parameters)),
       grids_(window_voxels(parameters)),
       mirrors_(window_voxels(parameters)),
-      curved_(window_voxels(parameters)) {
+      curved_(window_voxels(parameters)),
+      pillars_(window_voxels(parameters)) {
   voxel_of_point_.resize(max_points);
   model_.surfels.reserve(window_voxels(parameters));
   model_.segments.reserve(kMostSegments);
@@ -113,19 +114,8 @@ CutStatus RobustCut::label(const CloudView& cloud, std::span<Label> labels,
   analyse();
   take_near();
 
-  std::size_t structure = 0;
-  robust::MovedPoints moved;
-  for (std::size_t begin = 0; begin < cloud.size(); begin += robust::kPointsAtOnce) {
-    robust::move_points(cloud, begin, pose_, moved);
-    for (std::size_t i = 0; i < std::min(robust::kPointsAtOnce, cloud.size() - begin); ++i) {
-      const Vec3f p(moved.x[i], moved.y[i], moved.z[i]);
-      const bool is = is_structure(p, voxel_of_point_[begin + i]);
-      labels[begin + i] = is ? Label::structure : Label::other;
-      structure += is ? 1U : 0U;
-    }
-  }
-  structure_share_ =
-      static_cast<float>(structure) / static_cast<float>(std::max<std::size_t>(cloud.size(), 1));
+  label_points(cloud, labels);
+  if (parameters_.steady && judge_voxels()) steady(cloud, labels);
   return CutStatus::ok;
 }
 
@@ -148,7 +138,8 @@ void RobustCut::place(const CloudView& cloud, const std::optional<Vec3>& positio
   std::optional<robust::RigPose> found;
   if (window_.revolutions() > 0 && !parameters_.align) found = guess;
   if (window_.revolutions() > 0 && parameters_.align) {
-    found = alignment_.find(cloud, model_, grids_, guess, known ? kKnownMotionM : kUnknownMotionM,
+    const float position_sigma_m = kStepChangeM + (known ? 0.0F : pose_.step.norm());
+    found = alignment_.find(cloud, model_, grids_, guess, position_sigma_m,
                             kLeastOfLastShare * structure_share_);
     if (found && !known) found->step = found->position - pose_.position;
   }
@@ -193,6 +184,10 @@ void RobustCut::analyse() noexcept {
   if (parameters_.curved) {
     is_curved_ = curved_.find(model_, grids_, window_.map());
   }
+  is_pillar_ = {};
+  if (parameters_.pillars) {
+    is_pillar_ = pillars_.find(model_, grids_, window_.map(), window_.origin());
+  }
   grids_.mark_reach(model_);
 }
 
@@ -225,6 +220,7 @@ void RobustCut::take_near() noexcept {
   near_.resize(voxels.size());
   const float reach_m = parameters_.band_m + kHalfDiagonal * robust::kVoxelM;
   robust::MovedPoints centres{};
+  const std::uint64_t accepted = robust::accepted_planes(model_.planes);
   robust::PlaneSets planes;
   for (std::size_t begin = 0; begin < voxels.size(); begin += robust::kPointsAtOnce) {
     const std::size_t count = std::min(robust::kPointsAtOnce, voxels.size() - begin);
@@ -234,7 +230,7 @@ void RobustCut::take_near() noexcept {
       centres.y[i] = centre.y();
       centres.z[i] = centre.z();
     }
-    robust::find_planes(centres.columns(), model_.planes, reach_m, planes);
+    robust::find_planes(centres.columns(), model_.planes, accepted, reach_m, planes);
     for (std::size_t i = 0; i < count; ++i) {
       near_[begin + i] = near_of(window_.merged(begin + i), planes[i]);
     }
@@ -247,7 +243,10 @@ RobustCut::Near RobustCut::near_of(std::int32_t in_window, std::uint64_t planes)
   const auto merged = static_cast<std::size_t>(in_window);
   const bool known = merged < model_.surfels.size();
   if (known && model_.surfels[merged].mirrored) return near;
-  near.curved = known && !is_curved_.empty() && is_curved_[merged] != 0;
+  const auto is_marked = [&](std::span<const std::uint8_t> marks) {
+    return known && !marks.empty() && marks[merged] != 0;
+  };
+  near.unexplained = is_marked(is_curved_) || is_marked(is_pillar_);
   for (; planes != 0 && near.count < Near::kMost; planes &= planes - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(planes));
     if (known && is_fixture(model_.surfels[merged], k)) continue;
@@ -300,7 +299,63 @@ bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept 
       return true;
     }
   }
-  return near.curved;
+  return near.unexplained;
+}
+
+void RobustCut::label_points(const CloudView& cloud, std::span<Label> labels) noexcept {
+  std::size_t structure = 0;
+  robust::MovedPoints moved;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += robust::kPointsAtOnce) {
+    robust::move_points(cloud, begin, pose_, moved);
+    for (std::size_t i = 0; i < std::min(robust::kPointsAtOnce, cloud.size() - begin); ++i) {
+      const Vec3f p(moved.x[i], moved.y[i], moved.z[i]);
+      const std::int32_t voxel = voxel_of_point_[begin + i];
+      const bool is = is_structure(p, voxel);
+      labels[begin + i] = is ? Label::structure : Label::other;
+      if (!is) continue;
+      ++near_[static_cast<std::size_t>(voxel)].structure;
+      ++structure;
+    }
+  }
+  structure_share_ =
+      static_cast<float>(structure) / static_cast<float>(std::max<std::size_t>(cloud.size(), 1));
+}
+
+// Whether any is taken for something else than this revolution says.
+bool RobustCut::judge_voxels() noexcept {
+  bool any = false;
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    Near& near = near_[i];
+    near.verdict = window_.judge(i, 2 * near.structure > revolution_.voxels()[i].moments.count);
+    any |= near.verdict != robust::Verdict::as_now;
+  }
+  return any;
+}
+
+void RobustCut::steady(const CloudView& cloud, std::span<Label> labels) const noexcept {
+  robust::MovedPoints moved;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += robust::kPointsAtOnce) {
+    robust::move_points(cloud, begin, pose_, moved);
+    for (std::size_t i = 0; i < std::min(robust::kPointsAtOnce, cloud.size() - begin); ++i) {
+      const std::int32_t in_revolution = voxel_of_point_[begin + i];
+      if (in_revolution == VoxelMap::kNone) continue;
+      const auto voxel = static_cast<std::size_t>(in_revolution);
+      const robust::Verdict verdict = near_[voxel].verdict;
+      if (verdict == robust::Verdict::object) labels[begin + i] = Label::other;
+      if (verdict == robust::Verdict::structure &&
+          is_on_surface({moved.x[i], moved.y[i], moved.z[i]}, voxel)) {
+        labels[begin + i] = Label::structure;
+      }
+    }
+  }
+}
+
+// Of the window's piece of surface in a voxel of the revolution.
+bool RobustCut::is_on_surface(const Vec3f& p, std::size_t voxel) const noexcept {
+  const auto merged = static_cast<std::size_t>(window_.merged(voxel));
+  const Surfel& surfel = model_.surfels[merged];
+  return surfel.shape == robust::Shape::plane && !surfel.mirrored &&
+         std::abs(surfel.direction.dot(p - surfel.mean)) <= parameters_.band_m;
 }
 
 }  // namespace convexcut

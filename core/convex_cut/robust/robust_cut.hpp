@@ -22,6 +22,7 @@
 #include "core/convex_cut/robust/mirrors.hpp"
 #include "core/convex_cut/robust/model.hpp"
 #include "core/convex_cut/robust/parameters.hpp"
+#include "core/convex_cut/robust/pillars.hpp"
 #include "core/convex_cut/robust/plane_grid.hpp"
 #include "core/convex_cut/robust/plane_search.hpp"
 #include "core/convex_cut/robust/pose.hpp"
@@ -35,7 +36,7 @@ namespace convexcut {
 
 class RobustCut {
  public:
-  // Allocates everything it will ever need: 4 bytes a point and about 74 MB for thirty
+  // Allocates everything it will ever need: 4 bytes a point and about 76 MB for thirty
   // revolutions. Throws std::invalid_argument when the parameters are not valid or max_points
   // exceeds 2³¹, and std::bad_alloc.
   RobustCut(const RobustParameters& parameters, std::size_t max_points);
@@ -60,12 +61,14 @@ class RobustCut {
   [[nodiscard]] const robust::Model& model() const noexcept { return model_; }
 
  private:
-  // The accepted planes near a voxel.
+  // Of a voxel: the accepted planes near it, and what was decided of its points.
   struct Near {
     static constexpr std::size_t kMost = 4;
     std::array<std::uint8_t, kMost> planes{};
     std::uint8_t count = 0;
-    bool curved = false;
+    bool unexplained = false;  // by planes, but structure
+    robust::Verdict verdict = robust::Verdict::as_now;
+    std::int32_t structure = 0;  // points
   };
 
   [[nodiscard]] robust::RigPose predicted(const std::optional<Vec3>& position_m) const noexcept;
@@ -79,6 +82,10 @@ class RobustCut {
   [[nodiscard]] float mean_height(const robust::Surfel& surfel, std::size_t plane) const noexcept;
   [[nodiscard]] bool is_fixture(const robust::Surfel& surfel, std::size_t plane) const noexcept;
   [[nodiscard]] bool is_structure(const Vec3f& p, std::int32_t voxel) const noexcept;
+  void label_points(const CloudView& cloud, std::span<Label> labels) noexcept;
+  [[nodiscard]] bool judge_voxels() noexcept;
+  void steady(const CloudView& cloud, std::span<Label> labels) const noexcept;
+  [[nodiscard]] bool is_on_surface(const Vec3f& p, std::size_t voxel) const noexcept;
 
   RobustParameters parameters_;
   std::size_t max_points_;
@@ -94,8 +101,9 @@ class RobustCut {
   robust::Fixtures fixtures_;
   robust::Mirrors mirrors_;
   robust::Curved curved_;
-  std::span<const std::uint8_t> is_curved_;  // by surfel
-  std::vector<Near> near_;                   // by voxel of the revolution
+  robust::Pillars pillars_;
+  std::span<const std::uint8_t> is_curved_, is_pillar_;  // by surfel
+  std::vector<Near> near_;                               // by voxel of the revolution
   robust::RigPose pose_;
   std::optional<Vec3> given_position_m_;  // of the last revolution
   std::size_t points_ = 0;                // of the revolution at hand

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/convex_cut/robust/moments.hpp"
+#include "core/convex_cut/robust/verdicts.hpp"
 #include "core/geometry.hpp"
 
 namespace convexcut::robust {
@@ -66,6 +67,7 @@ struct Voxel {
   std::uint32_t place = 0;  // among those of the map
   Shape shape = Shape::other;
   bool changed = true;  // since the shape was taken
+  Verdicts verdicts;
 
   [[nodiscard]] Vec3f mean() const noexcept { return centre_of(place_of(key)) + moments.mean_m(); }
 };

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
 
 #include "core/convex_cut/robust/furniture.hpp"
 
@@ -15,6 +17,7 @@ constexpr std::int32_t kGap = 2;      // columns within a run that may be missin
 constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
 constexpr float kToCeilingM = 0.35F;
 constexpr float kWidestScreenM = 2.5F;
+constexpr std::int32_t kLeastPassed = 3;  // rows, beside a screen
 constexpr float kBelowCeilingM = 0.45F;
 constexpr float kRough = 2.5F;           // spread², relative to the noise²
 constexpr float kRoughWhereEven = 5.0F;  // a long wall with things on it
@@ -74,7 +77,7 @@ constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
   return spread > rough || (spread > kUneven && s.steps > kMostSteps);
 }
 
-// Whether rays pass columns [first, end) in most rows between two heights.
+// Whether rays pass columns [first, end) in most of the segment's rows of which anything is known.
 [[nodiscard]] bool is_passed(const Model& model, const PlaneGrids& grids, const WallSegment& s,
                              std::int32_t first, std::int32_t end) noexcept {
   const PlaneGrid& grid = grids.grid(s.plane);
@@ -83,14 +86,18 @@ constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
   for (std::int32_t row = 0; row < grid.rows; ++row) {
     const float z = grid.centre(model.planes[s.plane], s.first, row).z();
     if (z < s.bottom_m || z > s.top_m) continue;
-    ++rows;
-    bool any = false;
+    bool row_passed = false;
+    bool row_seen = false;
     for (std::int32_t c = first; c < end; ++c) {
-      any = any || (grid.holds(c, row) && grids.cell(grid, c, row).passed >= kPassed);
+      if (!grid.holds(c, row)) continue;
+      const Cell& cell = grids.cell(grid, c, row);
+      row_passed = row_passed || cell.passed >= kPassed;
+      row_seen = row_seen || cell.seen > 0;
     }
-    passed += any ? 1 : 0;
+    passed += row_passed ? 1 : 0;
+    rows += row_passed || row_seen ? 1 : 0;
   }
-  return 2 * passed > rows;
+  return passed >= kLeastPassed && 2 * passed > rows;
 }
 
 [[nodiscard]] std::int32_t count_seen(const PlaneGrids& grids, std::size_t plane,
@@ -103,25 +110,36 @@ constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
   return count;
 }
 
+struct Columns {
+  std::int32_t first = 0, end = 0;
+};
+
+// Without a chair's legs in the plane of a board.
+[[nodiscard]] Columns without_legs(const PlaneGrids& grids, const WallSegment& s) noexcept {
+  Columns columns{s.first, s.end};
+  const auto is_leg = [&](std::int32_t c) { return count_seen(grids, s.plane, c) < kLeastSeen; };
+  while (columns.first < columns.end && is_leg(columns.first)) ++columns.first;
+  while (columns.first < columns.end && is_leg(columns.end - 1)) --columns.end;
+  return columns;
+}
+
+// Beside which of its ends rays pass.
+void mark_free_ends(const Model& model, const PlaneGrids& grids, WallSegment& s) noexcept {
+  const auto [first, end] = without_legs(grids, s);
+  s.free_begin = is_passed(model, grids, s, first - kBeside, first);
+  s.free_end = is_passed(model, grids, s, end, end + kBeside);
+}
+
 // Whether rays pass on both sides of what ends below the ceiling: a board on wheels, a screen.
 [[nodiscard]] bool stands_free(const Model& model, const PlaneGrids& grids,
                                const WallSegment& s) noexcept {
-  if (s.top_m > model.ceiling_z - kBelowCeilingM || s.width_m() > kWidestScreenM ||
-      s.width_m() < kNarrowM) {
-    return false;
-  }
-  const bool on_a_wall =
-      std::any_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& other) {
-        return &other != &s && other.plane == s.plane && other.closed > s.closed;
-      });
-  if (on_a_wall) return false;
-  // A chair's leg in the board's plane is no part of it.
-  std::int32_t first = s.first;
-  std::int32_t end = s.end;
-  while (first < end && count_seen(grids, s.plane, first) < kLeastSeen) ++first;
-  while (first < end && count_seen(grids, s.plane, end - 1) < kLeastSeen) --end;
-  return is_passed(model, grids, s, first - kBeside, first) &&
-         is_passed(model, grids, s, end, end + kBeside);
+  if (!s.free_begin || !s.free_end) return false;
+  if (s.top_m > model.ceiling_z - kBelowCeilingM || s.width_m() < kNarrowM) return false;
+  const auto [first, end] = without_legs(grids, s);
+  if (static_cast<float>(end - first) * kCellM > kWidestScreenM) return false;
+  return std::none_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& other) {
+    return &other != &s && other.plane == s.plane && other.closed > s.closed;
+  });
 }
 
 // What is passed above, but stands in the plane of a larger wall, is that wall beneath a window.
@@ -136,9 +154,21 @@ void accept_under_windows(Model& model) noexcept {
   }
 }
 
+// Of a run's columns: reached by a quarter of them. Ghosts and what hangs above reach higher in
+// some.
+[[nodiscard]] float top_of(std::span<float> tops_m) noexcept {
+  if (tops_m.empty()) return -1e9F;
+  const auto quarter = tops_m.begin() + static_cast<std::ptrdiff_t>(tops_m.size() / 4);
+  std::nth_element(tops_m.begin(), quarter, tops_m.end(), std::greater<>());
+  return *quarter;
+}
+
 }  // namespace
 
-Walls::Walls() { columns_.reserve(kMostColumns); }
+Walls::Walls() {
+  columns_.reserve(kMostColumns);
+  tops_m_.reserve(kMostColumns);
+}
 
 void Walls::find(Model& model, PlaneGrids& grids, const RobustParameters& parameters) noexcept {
   model.segments.clear();
@@ -150,6 +180,7 @@ void Walls::find(Model& model, PlaneGrids& grids, const RobustParameters& parame
   accept_under_windows(model);
   if (parameters.furniture) {
     for (WallSegment& s : model.segments) {
+      if (s.accepted) mark_free_ends(model, grids, s);
       s.accepted = s.accepted && !is_rough(model, s) && !stands_free(model, grids, s);
     }
     reject_furniture(model);
@@ -259,7 +290,7 @@ void Walls::split_run(Model& model, const PlaneGrids& grids, std::size_t plane, 
 }
 
 void Walls::add_segment(Model& model, const PlaneGrids& grids, std::size_t plane,
-                        std::int32_t first, std::int32_t end, bool accepted) const noexcept {
+                        std::int32_t first, std::int32_t end, bool accepted) noexcept {
   if (model.segments.size() == model.segments.capacity() ||
       model.segments.size() >= kMostSegments) {
     return;
@@ -271,7 +302,8 @@ void Walls::add_segment(Model& model, const PlaneGrids& grids, std::size_t plane
   segment.end = end;
   segment.accepted = accepted;
   segment.begin_m = segment.bottom_m = 1e9F;
-  segment.end_m = segment.top_m = -1e9F;
+  segment.end_m = -1e9F;
+  tops_m_.clear();
   for (std::int32_t c = first; c < end; ++c) {
     const Column& column = columns_[static_cast<std::size_t>(c)];
     if (column.seen == 0) continue;
@@ -282,8 +314,9 @@ void Walls::add_segment(Model& model, const PlaneGrids& grids, std::size_t plane
     const Plane& p = model.planes[plane];
     segment.bottom_m =
         std::min(segment.bottom_m, grid.centre(p, c, column.bottom).z() - kCellM / 2);
-    segment.top_m = std::max(segment.top_m, grid.centre(p, c, column.top).z() + kCellM / 2);
+    tops_m_.push_back(grid.centre(p, c, column.top).z() + kCellM / 2);
   }
+  segment.top_m = top_of(tops_m_);
   segment.steps = share_of_steps(grids, grid, first, end);
   segment.spread2 = spread2_of(grids, grid, first, end);
   model.segments.push_back(segment);

@@ -37,9 +37,10 @@ class Walls {
   void split_run(Model& model, const PlaneGrids& grids, std::size_t plane, std::int32_t first,
                  std::int32_t end) noexcept;
   void add_segment(Model& model, const PlaneGrids& grids, std::size_t plane, std::int32_t first,
-                   std::int32_t end, bool accepted) const noexcept;
+                   std::int32_t end, bool accepted) noexcept;
 
   std::vector<Column> columns_;  // of the plane at hand
+  std::vector<float> tops_m_;    // of the segment at hand, by column
 };
 
 }  // namespace convexcut::robust

@@ -39,6 +39,13 @@ class Window {
   [[nodiscard]] std::int32_t merged(std::size_t voxel_of_revolution) const noexcept {
     return merged_[voxel_of_revolution];
   }
+  // Once a revolution: adds what was decided of such a voxel. As long as it is in the window, that
+  // is remembered.
+  [[nodiscard]] Verdict judge(std::size_t voxel_of_revolution, bool is_structure) noexcept {
+    const std::int32_t index = merged_[voxel_of_revolution];
+    if (index == VoxelMap::kNone) return Verdict::as_now;
+    return map_.voxels()[static_cast<std::size_t>(index)].verdicts.add(is_structure);
+  }
 
  private:
   struct Entry {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -60,6 +61,24 @@ TEST(RobustCut, SeesInSeveralRevolutionsWhatEndsBelowTheCeiling) {
   CONVEXCUT_LONG_TEST();
   const BoxRoom room = with({{1.6, 0.8, -1.2}, {2.0, 1.2, 0.9}});  // higher than it looks at once
   EXPECT_LT(cut(room, {.tilt_deg = 30.0}, 30).share_of(0), 0.1);
+}
+
+// Its top is seen at first; then the lidar is level and decides by what it sees now.
+TEST(RobustCut, RemembersWhatWasDecidedInEarlierRevolutions) {
+  CONVEXCUT_LONG_TEST();
+  const BoxRoom room = with({{1.6, 0.8, -1.2}, {2.0, 1.2, 0.5}});
+  RobustParameters forgetful;
+  forgetful.steady = false;
+  const auto share_kept = [&](const RobustParameters& parameters) {
+    RobustCut robust(parameters, kMostPoints);
+    Kept kept = test::last_of(robust, room, {.tilt_deg = 30.0, .yaw_deg = 180.0}, 12);
+    kept.cloud = revolution_in(room, {});
+    kept.labels.resize(kept.cloud.cloud.size());
+    EXPECT_EQ(robust.label(kept.cloud.cloud.view(), kept.labels, std::nullopt, 2), CutStatus::ok);
+    return kept.share_of(0);
+  };
+  EXPECT_GT(share_kept(forgetful), 0.9);
+  EXPECT_LT(share_kept({}), 0.2);
 }
 
 TEST(RobustCut, IsolatedGhostsCostNothing) {

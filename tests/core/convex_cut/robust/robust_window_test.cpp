@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What RobustCut keeps from call to call equals what is made anew from the same revolutions; shapes
-// are those of Eigen's closed form, and no instruction set changes a label. Says nothing about what
-// the labels are worth.
+// are those of Eigen's closed form, earlier decisions weigh as they should, and no instruction set
+// changes a label. Says nothing about what the labels are worth.
 #include <array>
 #include <cstdint>
 #include <deque>
 #include <map>
 #include <random>
 #include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -257,6 +258,36 @@ TEST_P(RobustShapes, AreEigensBitByBit) {
 }
 
 CONVEXCUT_ON_EVERY_SIMD_PATH(RobustShapes);
+
+// The last of the answers to these decisions: s for structure, o for an object.
+[[nodiscard]] robust::Verdict verdict_after(std::string_view decisions) {
+  robust::Verdicts verdicts;
+  robust::Verdict verdict = robust::Verdict::as_now;
+  for (const char decision : decisions) verdict = verdicts.add(decision == 's');
+  return verdict;
+}
+
+TEST(RobustVerdicts, TheFirstRevolutionDecidesAlone) {
+  EXPECT_EQ(verdict_after("s"), robust::Verdict::as_now);
+  EXPECT_EQ(verdict_after("o"), robust::Verdict::as_now);
+}
+
+TEST(RobustVerdicts, OneRevolutionChangesNothingAfterMany) {
+  EXPECT_EQ(verdict_after("sssso"), robust::Verdict::structure);
+  EXPECT_EQ(verdict_after("oooos"), robust::Verdict::object);
+}
+
+TEST(RobustVerdicts, TwoInARowMakeStructureAndHalfOfAllAnObject) {
+  EXPECT_EQ(verdict_after("ooooooooss"), robust::Verdict::as_now);
+  EXPECT_EQ(verdict_after("ssssooo"), robust::Verdict::structure);
+  EXPECT_EQ(verdict_after("ssssoooo"), robust::Verdict::as_now);
+}
+
+TEST(RobustVerdicts, WhatIsLongPastFades) {
+  const std::string past(200, 's');
+  EXPECT_EQ(verdict_after(past + std::string(10, 'o')), robust::Verdict::structure);
+  EXPECT_EQ(verdict_after(past + std::string(12, 'o')), robust::Verdict::as_now);
+}
 
 TEST(RobustCut, EveryInstructionSetGivesTheSameLabels) {
   test::BoxRoom room;

@@ -33,6 +33,11 @@ struct Kept {
 
 inline constexpr std::size_t kMostPoints = 40'000;
 
+// Shares of a box.
+inline constexpr double kKept = 0.9;
+inline constexpr double kRemoved = 0.15;       // but for the edges on floor and wall
+inline constexpr double kMostlyRemoved = 0.3;  // small things have more edge
+
 // The last revolution of a lidar that turns by 12° from one to the next.
 [[nodiscard]] inline Kept last_of(RobustCut& robust, const BoxRoom& room, Sight sight,
                                   int revolutions) {
