@@ -4,6 +4,7 @@
 // anything about real adapters: the line is a pseudo-terminal.
 #include <chrono>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <string>
 #include <thread>
@@ -107,6 +108,10 @@ class ImuByHand : public LiveFault {
       EXPECT_EQ(terminal_->send(bytes), bytes.size());
     }
   }
+  // The same beside the test: the device goes on while the daemon is asked.
+  [[nodiscard]] std::future<void> send_beside_until(Clock::duration end, Clock::duration batch) {
+    return std::async(std::launch::async, [=, this] { send_until(end, batch); });
+  }
   [[nodiscard]] long samples_recorded() const {
     return counted(run_program("convexcut", {"info", "--json", "--imu", imu()}).out, "samples");
   }
@@ -123,11 +128,12 @@ class ImuByHand : public LiveFault {
 // As an FTDI adapter does whose latency timer was left alone.
 TEST_F(ImuByHand, BytesInBatchesOf16MillisecondsLoseNoSampleAndNoPoint) {
   start("3");
-  send_until(milliseconds{1200}, milliseconds{16});
+  const std::future<void> sent = send_beside_until(milliseconds{3800}, milliseconds{16});
+  std::this_thread::sleep_until(start_ + milliseconds{1200});
   const std::string before = dump();
-  send_until(milliseconds{2600}, milliseconds{16});
+  std::this_thread::sleep_until(start_ + milliseconds{2600});
   const std::string after = dump();
-  send_until(milliseconds{3800}, milliseconds{16});
+  sent.wait();
   EXPECT_THAT(after, HasSubstr("health_source name=imu state=streaming"));
   EXPECT_THAT(after, HasSubstr("health_source name=lidar state=streaming"));
   EXPECT_EQ(logged(after, "info health_totals", "points_without_orientation"),
@@ -158,9 +164,9 @@ TEST_F(ImuByHand, LineThatBreaksWithinAMessageLosesThatMessageAndGoesOnWhenItIsB
   }
   const Clock::duration back = Clock::now() - start_;
   send_until(back + milliseconds{300}, milliseconds{10});
-  const std::string now = dump();
-  EXPECT_THAT(now, HasSubstr("health_source name=imu state=streaming")) << now;
-  send_until(milliseconds{3800}, milliseconds{10});
+  const std::future<void> sent = send_beside_until(milliseconds{3800}, milliseconds{10});
+  becomes("imu", "streaming", 1.0);
+  sent.wait();
   EXPECT_EQ(replay_->stop().status, 0);
   stop();
   // Whole messages are either taken or lost.
