@@ -2,8 +2,11 @@
 #include "core/convex_cut/robust/flat_surfaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "core/convex_cut/robust/plane_search.hpp"
 
 namespace convexcut::robust {
 namespace {
@@ -23,6 +26,8 @@ constexpr float kMostOpenRing = 0.25F;    // share of the ring that may be passe
 constexpr float kMostOpenInside = 0.40F;  // and of the part itself
 constexpr float kLevel = 0.97F;           // |z| of a normal
 constexpr std::uint32_t kLargeSurfels = 30;
+constexpr float kAboveM = 0.15F;
+constexpr std::ptrdiff_t kMostAbove = 2;
 
 template <class Visit>
 void for_each_within_reach(const PlaneGrid& grid, std::int32_t column, std::int32_t row,
@@ -36,6 +41,14 @@ void for_each_within_reach(const PlaneGrid& grid, std::int32_t column, std::int3
 
 [[nodiscard]] Eigen::Array2f level_size_m(const Vec3f& low, const Vec3f& high) noexcept {
   return (high - low).head<2>().array() + kCellM;
+}
+
+// Whether nothing is seen above a level plane, but for a few ghosts.
+[[nodiscard]] bool is_topmost(const Model& model, std::size_t plane) noexcept {
+  if (model.planes[plane].normal.z() > -kLevel) return false;
+  return std::count_if(model.surfels.begin(), model.surfels.end(), [&](const Surfel& surfel) {
+           return surfel.is_evidence() && model.planes[plane].height_of(surfel.mean) < -kAboveM;
+         }) <= kMostAbove;
 }
 
 }  // namespace
@@ -70,9 +83,7 @@ void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
   }
   if (free_space) {
     reject_table_tops(model, origin);
-    std::erase_if(parts_, [&](const Part& part) {
-      return model.planes[part.plane].normal.z() < 0.0F && part.cells < kLeastCeilingCells;
-    });
+    reject_undersides(model);
   }
   for (const Part& part : parts_) accept(model, grids, part);
   find_levels(model, origin);
@@ -138,6 +149,24 @@ void FlatSurfaces::reject_table_tops(const Model& model, const Vec3f& origin) no
     return model.planes[part.plane].normal.z() > 0.0F && part.high.z() < origin.z() &&
            is_above_floor(model, part, *floor);
   });
+}
+
+// Undersides of shelves are small and have something seen above them somewhere. Of a ceiling in the
+// distance each ring of the lidar may show a small part.
+void FlatSurfaces::reject_undersides(const Model& model) noexcept {
+  const auto is_underside = [&](const Part& part) {
+    return model.planes[part.plane].normal.z() < 0.0F && part.cells < kLeastCeilingCells;
+  };
+  std::array<std::size_t, PlaneSearch::kMostPlanes> cells{};
+  for (const Part& part : parts_) cells.at(part.plane) += part.cells;
+  std::array<bool, PlaneSearch::kMostPlanes> ceiling{};
+  for (const Part& part : parts_) {
+    ceiling.at(part.plane) = ceiling.at(part.plane) ||
+                             (is_underside(part) && cells.at(part.plane) >= kLeastCeilingCells &&
+                              is_topmost(model, part.plane));
+  }
+  std::erase_if(parts_,
+                [&](const Part& part) { return is_underside(part) && !ceiling.at(part.plane); });
 }
 
 // The undersides of beams: long, with the parts of the same plane in one line, and close under the

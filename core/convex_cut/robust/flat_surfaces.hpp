@@ -39,6 +39,7 @@ class FlatSurfaces {
   [[nodiscard]] static bool is_above_floor(const Model& model, const Part& part,
                                            const Part& floor) noexcept;
   void reject_table_tops(const Model& model, const Vec3f& origin) noexcept;
+  void reject_undersides(const Model& model) noexcept;
   static void accept(Model& model, PlaneGrids& grids, const Part& part) noexcept;
   void add_beams(const Model& model) noexcept;
   static void find_levels(Model& model, const Vec3f& origin) noexcept;

@@ -34,6 +34,11 @@ constexpr std::array<float, 4> kGatesM{0.10F, 0.07F, 0.05F, 0.04F};  // of the f
 constexpr float kLeastLean = 0.008F;
 constexpr float kMostLean = 0.025F;
 constexpr float kMostOffM = 0.035F;
+// Of a small plane: by how much its normal may differ from the mean of its surfels'.
+constexpr float kMixedSine = 0.035F;
+constexpr std::array<float, 2> kGatesOfOneM{0.04F, 0.04F};
+constexpr float kOnPlaneM = 0.02F;
+constexpr float kManyBeside = 0.05F;          // of all
 constexpr std::uint32_t kLargeSurfels = 150;  // of a wall; smaller ones may be anything
 
 [[nodiscard]] std::optional<Plane> plane_through(const Surfel& surfel) noexcept {
@@ -88,23 +93,115 @@ class WeightedSums {
   std::uint32_t count_ = 0;
 };
 
-// Of the surfels whose bit is set, in their order.
+// The numbers of the surfels whose bit is set, in their order.
+template <class Visit>
+void for_each_marked(const SurfelColumns& surfels, std::span<const std::uint64_t> bits,
+                     Visit&& visit) noexcept {
+  constexpr std::size_t kBits = 64;
+  for (std::size_t word = 0; word * kBits < surfels.size; ++word) {
+    for (std::uint64_t left = bits[word]; left != 0; left &= left - 1) {
+      visit(word * kBits + static_cast<std::size_t>(std::countr_zero(left)));
+    }
+  }
+}
+
+[[nodiscard]] Vec3f mean_of(const SurfelColumns& surfels, std::size_t i) noexcept {
+  using C = SurfelColumns;
+  return {surfels.column(C::kX)[i], surfels.column(C::kY)[i], surfels.column(C::kZ)[i]};
+}
+
 [[nodiscard]] WeightedSums sums_of(const SurfelColumns& surfels,
                                    std::span<const std::uint64_t> bits) noexcept {
-  constexpr std::size_t kBits = 64;
   const float* x = surfels.column(SurfelColumns::kX);
   const float* y = surfels.column(SurfelColumns::kY);
   const float* z = surfels.column(SurfelColumns::kZ);
   const float* weight = surfels.column(SurfelColumns::kWeight);
   WeightedSums sums;
-  for (std::size_t word = 0; word * kBits < surfels.size; ++word) {
-    for (std::uint64_t left = bits[word]; left != 0; left &= left - 1) {
-      const std::size_t i = word * kBits + static_cast<std::size_t>(std::countr_zero(left));
-      sums.add(static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i]),
-               static_cast<double>(weight[i]));
-    }
-  }
+  for_each_marked(surfels, bits, [&](std::size_t i) {
+    sums.add(static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i]),
+             static_cast<double>(weight[i]));
+  });
   return sums;
+}
+
+// The mean of the normals, by weight, on the side of `normal`; lines have none.
+[[nodiscard]] Vec3f mean_normal(const SurfelColumns& surfels, std::span<const std::uint64_t> bits,
+                                const Vec3f& normal) noexcept {
+  using C = SurfelColumns;
+  Vec3f sum = Vec3f::Zero();
+  for_each_marked(surfels, bits, [&](std::size_t i) {
+    if (surfels.column(C::kBar)[i] < 0.0F) return;
+    const Vec3f n(surfels.column(C::kU)[i], surfels.column(C::kV)[i], surfels.column(C::kW)[i]);
+    sum += std::copysign(surfels.column(C::kWeight)[i], n.dot(normal)) * n;
+  });
+  const float length = sum.norm();
+  return length > 0.0F ? Vec3f(sum / length) : normal;
+}
+
+// Where some surfels are along an axis.
+class Stretch {
+ public:
+  void add(float at_m) noexcept {
+    sum_m_ += at_m;
+    squares_m2_ += at_m * at_m;
+    ++count_;
+  }
+  [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
+  [[nodiscard]] bool is_beside(const Stretch& other) const noexcept {
+    return std::abs(mean_m() - other.mean_m()) > deviation_m() + other.deviation_m();
+  }
+
+ private:
+  [[nodiscard]] float mean_m() const noexcept {
+    return sum_m_ / static_cast<float>(std::max(count_, 1U));
+  }
+  [[nodiscard]] float deviation_m() const noexcept {
+    const float variance =
+        squares_m2_ / static_cast<float>(std::max(count_, 1U)) - mean_m() * mean_m();
+    return std::sqrt(std::max(variance, 0.0F));
+  }
+  float sum_m_ = 0.0F, squares_m2_ = 0.0F;
+  std::uint32_t count_ = 0;
+};
+
+// Whether many of the surfels marked are off the plane, side by side with those on it: not books
+// among books.
+[[nodiscard]] bool has_others_beside(const SurfelColumns& surfels,
+                                     std::span<const std::uint64_t> bits,
+                                     const Plane& plane) noexcept {
+  const Vec3f along = Vec3f::UnitZ().cross(plane.normal).normalized();
+  Stretch on_along, on_up, off_along, off_up, all;
+  for_each_marked(surfels, bits, [&](std::size_t i) {
+    const Vec3f mean = mean_of(surfels, i);
+    const float height_m = std::abs(plane.height_of(mean));
+    all.add(0.0F);
+    if (height_m < kOnPlaneM) {
+      on_along.add(along.dot(mean));
+      on_up.add(mean.z());
+    }
+    if (height_m > kPlaneGateM) {
+      off_along.add(along.dot(mean));
+      off_up.add(mean.z());
+    }
+  });
+  return static_cast<float>(off_up.count()) >= kManyBeside * static_cast<float>(all.count()) &&
+         (on_along.is_beside(off_along) || on_up.is_beside(off_up));
+}
+
+// Of all planes with that normal through a surfel marked, the one that most of them lie on.
+[[nodiscard]] Plane best_across(const SurfelColumns& surfels, std::span<const std::uint64_t> bits,
+                                const Vec3f& normal) noexcept {
+  Plane best;
+  for_each_marked(surfels, bits, [&](std::size_t i) {
+    Plane plane;
+    plane.normal = normal;
+    plane.offset = -normal.dot(mean_of(surfels, i));
+    for_each_marked(surfels, bits, [&](std::size_t other) {
+      plane.surfels += std::abs(plane.height_of(mean_of(surfels, other))) < kOnPlaneM ? 1U : 0U;
+    });
+    if (plane.surfels > best.surfels) best = plane;
+  });
+  return best;
 }
 
 struct Middle {
@@ -258,8 +355,28 @@ Plane PlaneSearch::best_trial(const Model& model) noexcept {
 
 std::uint32_t PlaneSearch::refine(Plane& plane) noexcept {
   copy_near(left_, plane, kRefineReachM, near_);
+  const std::uint32_t count = fit(plane, kGatesM);
+  return count == 0 ? 0 : separated(plane, count);
+}
+
+// A fit through two upright surfaces that are parallel and side by side (a pillar and a lamp before
+// it) agrees with the normals of neither: then the one of the two that more surfels lie on.
+std::uint32_t PlaneSearch::separated(Plane& plane, std::uint32_t count) noexcept {
+  if (count > kLargeSurfels || std::abs(plane.normal.z()) > kVertical) return count;
+  const Vec3f normal = mean_normal(near_, agree_, plane.normal);
+  if (normal.cross(plane.normal).norm() < kMixedSine) return count;
+  Plane one = best_across(near_, agree_, normal);
+  if (!has_others_beside(near_, agree_, one)) return count;
+  const std::uint32_t count_of_one = fit(one, kGatesOfOneM);
+  if (count_of_one == 0) return count;
+  plane = one;
+  return count_of_one;
+}
+
+// Fits the plane to those of near_ within each gate, one by one; returns how many are in the last.
+std::uint32_t PlaneSearch::fit(Plane& plane, std::span<const float> gates_m) noexcept {
   std::uint32_t count = 0;
-  for (const float gate_m : kGatesM) {
+  for (const float gate_m : gates_m) {
     mark_agreeing(near_, plane, gate_m, agree_);
     const WeightedSums sums = sums_of(near_, agree_);
     if (sums.count() < kLeastSurfels) return 0;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/convex_cut/robust/model.hpp"
 #include "core/convex_cut/robust/surfel_kernels.hpp"
@@ -32,6 +33,8 @@ class PlaneSearch {
   [[nodiscard]] const SurfelColumns& sample() noexcept;
   [[nodiscard]] Plane best_trial(const Model& model) noexcept;
   [[nodiscard]] std::uint32_t refine(Plane& plane) noexcept;
+  [[nodiscard]] std::uint32_t separated(Plane& plane, std::uint32_t count) noexcept;
+  [[nodiscard]] std::uint32_t fit(Plane& plane, std::span<const float> gates_m) noexcept;
   void claim(Model& model, const Plane& plane) noexcept;
   static void square_walls(Model& model) noexcept;
   [[nodiscard]] std::size_t random_left() noexcept;

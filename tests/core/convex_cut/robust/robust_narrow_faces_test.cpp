@@ -27,9 +27,12 @@ TEST(RobustNarrowFaces, KeepsAPillarWhoseFootIsHiddenAndRemovesALamp) {
   room.boxes = {{{-3.2, -0.3, -1.2}, {-2.6, 0.3, 3.0}},
                 {{-2.2, -1.0, -1.2}, {-1.6, 1.0, 0.45}},
                 {{-3.0, 0.8, 1.0}, {-2.5, 1.3, 1.6}}};
-  const Kept kept = cut(room, {.tilt_deg = 30.0}, 6);
-  EXPECT_GT(kept.share_of(0), 0.8);
-  EXPECT_LT(kept.share_of(2), kRemoved);
+  // A plane through the pillar's face and the lamp before it is neither's, whatever the noise.
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Kept kept = cut(room, {.tilt_deg = 30.0, .seed = 7 * seed}, 6);
+    EXPECT_GT(kept.share_of(0), 0.8) << seed;
+    EXPECT_LT(kept.share_of(2), kRemoved) << seed;
+  }
 }
 
 // A pier over a cupboard, of which 0.6 m are in view, beside openings to what is behind.

@@ -42,6 +42,14 @@ TEST(RobustRules, RemovesTheUndersideOfAShelfAndKeepsThatOfABulkhead) {
   EXPECT_GT(cut(room, {.tilt_deg = 2.0}, 4).share_of(0), kKept);
 }
 
+// A lidar that stands upright sees a low ceiling ring by ring in the distance.
+TEST(RobustRules, KeepsSmallPartsOfACeilingThatNothingIsSeenAbove) {
+  BoxRoom corridor;
+  corridor.walls = {{-8.5, -1.2, -1.3}, {8.5, 1.2, 1.6}};
+  corridor.boxes = {{{-8.5, -1.2, 1.1}, {8.5, 1.2, 1.6}}};
+  EXPECT_GT(cut(corridor, {}, 4).share_of(0), kKept);
+}
+
 // From corner to corner, so that no wall is seen beside it.
 TEST(RobustRules, RemovesAWideFrontOfBooksAndKeepsAFlatOne) {
   BoxRoom room;
