@@ -32,6 +32,7 @@ constexpr float kMarginM = 0.2F;  // to floor and ceiling
 constexpr std::uint32_t kLeastCells = 4;
 constexpr std::uint32_t kLargeCells = 40;  // of a wall, in all
 constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
+constexpr float kSeenOver = 0.15F;         // share of a run, for all of it that is no higher
 
 // The share of neighbouring cells of columns [first, end) whose means differ: great where depths
 // change from book to book, small on a wall with a picture on it. 0 where too few are known.
@@ -209,11 +210,13 @@ void Walls::take_columns(const Model& model, const PlaneGrids& grids, std::size_
       if (cell.seen > 0) {
         if (column.seen++ == 0) column.bottom = row;
         column.top = row;
+        column.open_above = false;
       }
       if (cell.passed < kPassed) continue;
       const float z = grid.centre(model.planes[plane], c, row).z();
       if (z > model.floor_z + kMarginM && z < model.ceiling_z - kMarginM) {
         ++(cell.seen > 0 ? through : column.open);
+        column.open_above = cell.seen == 0;
       }
     }
     if (through >= column.open || hangs_from_ceiling(model, grids, plane, c, column))
@@ -257,10 +260,31 @@ void Walls::split(Model& model, const PlaneGrids& grids, std::size_t plane,
   }
 }
 
+// Where something behind is seen over a part of a run, what is no higher beside it ends there too,
+// although nothing is seen over that.
+void Walls::open_below_top(std::int32_t first, std::int32_t end) noexcept {
+  std::int32_t seen = 0;
+  std::int32_t seen_over = 0;
+  std::int32_t top = -1;
+  for (std::int32_t c = first; c < end; ++c) {
+    const Column& column = columns_[static_cast<std::size_t>(c)];
+    seen += column.seen;
+    if (column.seen == 0 || column.open == 0 || !column.open_above) continue;
+    seen_over += column.seen;
+    top = std::max(top, column.top);
+  }
+  if (static_cast<float>(seen_over) < kSeenOver * static_cast<float>(seen)) return;
+  for (std::int32_t c = first; c < end; ++c) {
+    Column& column = columns_[static_cast<std::size_t>(c)];
+    if (column.top <= top + 1) column.open = std::max(column.open, 1);
+  }
+}
+
 // Accepts a run as a whole when most of it is closed; of the others, the closed parts that reach
 // higher than all of the open ones (a pillar between bookcases).
 void Walls::split_run(Model& model, const PlaneGrids& grids, std::size_t plane, std::int32_t first,
                       std::int32_t end) noexcept {
+  open_below_top(first, end);
   std::int32_t closed = 0;
   std::int32_t open = 0;
   std::int32_t open_top = -1;

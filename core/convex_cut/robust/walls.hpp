@@ -28,11 +28,13 @@ class Walls {
     std::int32_t seen = 0;  // cells
     std::int32_t open = 0;  // cells that rays pass between floor and ceiling, and is not glass
     std::int32_t bottom = 0, top = -1;
+    bool open_above = false;  // the highest of these is above the top
   };
   void take_columns(const Model& model, const PlaneGrids& grids, std::size_t plane) noexcept;
   [[nodiscard]] static bool hangs_from_ceiling(const Model& model, const PlaneGrids& grids,
                                                std::size_t plane, std::int32_t c,
                                                const Column& column) noexcept;
+  void open_below_top(std::int32_t first, std::int32_t end) noexcept;
   void split(Model& model, const PlaneGrids& grids, std::size_t plane, bool free_space) noexcept;
   void split_run(Model& model, const PlaneGrids& grids, std::size_t plane, std::int32_t first,
                  std::int32_t end) noexcept;

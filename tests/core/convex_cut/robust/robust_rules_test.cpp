@@ -118,6 +118,14 @@ TEST(RobustRules, RemovesABoardThatStandsFreeBesideALeg) {
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
+// From wall to wall; what is over most of it is hidden by a board that hangs close to the lidar.
+TEST(RobustRules, RemovesAPartitionThatIsLookedOverInAPart) {
+  BoxRoom room;
+  room.walls = {{-4.0, -1.5, -1.2}, {4.0, 1.5, 1.6}};
+  room.boxes = {{{2.0, -1.5, -1.2}, {2.05, 1.5, 0.25}}, {{0.95, -0.4, 0.13}, {1.0, 0.8, 1.6}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
+}
+
 // What is above it is hidden by a monitor.
 TEST(RobustRules, RemovesTheSideOfADesk) {
   BoxRoom room;
