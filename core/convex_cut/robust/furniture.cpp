@@ -166,10 +166,11 @@ struct PlaneExtent {
   return (s.free_end && is(s.begin_m, s.end_m)) || (s.free_begin && is(s.end_m, s.begin_m));
 }
 
-// Whether its plane has a wide part that is a wall.
+// Whether its plane has another part, a wide one, that is a wall.
 [[nodiscard]] bool is_on_wider(const Model& model, const WallSegment& face) noexcept {
   return std::any_of(model.segments.begin(), model.segments.end(), [&](const WallSegment& s) {
-    return s.plane == face.plane && s.accepted && !s.narrow && s.width_m() > kNarrowM;
+    return &s != &face && s.plane == face.plane && s.accepted && !s.narrow &&
+           s.width_m() > kNarrowM;
   });
 }
 
@@ -226,9 +227,11 @@ void reject_furniture(Model& model) noexcept {
     }
   }
   for (WallSegment& s : model.segments) {
-    // Short things that hang are lamps; what is taller stands, and its foot is hidden.
+    // Short things that hang are lamps; what is taller stands, and its foot is hidden. In a wall's
+    // plane they are parts of it: panes, of which furniture hides the rest.
     if (s.accepted && s.bottom_m > model.floor_z + kHangingM && !std::isinf(model.floor_z) &&
-        s.width_m() < kLeastBeamM && s.top_m - s.bottom_m < kTallestLampM) {
+        s.width_m() < kLeastBeamM && s.top_m - s.bottom_m < kTallestLampM &&
+        !is_on_wider(model, s)) {
       s.accepted = false;
     }
   }

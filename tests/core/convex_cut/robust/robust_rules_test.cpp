@@ -118,6 +118,16 @@ TEST(RobustRules, RemovesABoardThatStandsFreeBesideALeg) {
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
+// What is short and hangs alone is a lamp.
+TEST(RobustRules, KeepsASmallPaneInThePlaneOfALargeOne) {
+  BoxRoom room;
+  room.boxes = {{{3.95, 1.2, 0.62}, {4.0, 2.1, 1.1}},  {{3.95, -2.6, 0.62}, {4.0, -0.4, 1.1}},
+                {{3.8, -3.0, -1.2}, {4.0, 3.0, 0.62}}, {{3.8, -3.0, 1.1}, {4.0, 3.0, 1.6}},
+                {{3.8, -3.0, 0.62}, {4.0, -2.6, 1.1}}, {{3.8, -0.4, 0.62}, {4.0, 1.2, 1.1}},
+                {{3.8, 2.1, 0.62}, {4.0, 3.0, 1.1}}};
+  EXPECT_GT(cut(room, {.tilt_deg = -8.0}, 2).share_of(0), 0.8);
+}
+
 // From wall to wall; what is over most of it is hidden by a board that hangs close to the lidar.
 TEST(RobustRules, RemovesAPartitionThatIsLookedOverInAPart) {
   BoxRoom room;
