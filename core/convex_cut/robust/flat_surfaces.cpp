@@ -145,10 +145,27 @@ std::optional<FlatSurfaces::Part> FlatSurfaces::whole_floor(const Model& model,
 void FlatSurfaces::reject_table_tops(const Model& model, const Vec3f& origin) noexcept {
   const std::optional<Part> floor = whole_floor(model, origin);
   if (!floor) return;
-  std::erase_if(parts_, [&](const Part& part) {
-    return model.planes[part.plane].normal.z() > 0.0F && part.high.z() < origin.z() &&
-           is_above_floor(model, part, *floor);
-  });
+  for (Part& part : parts_) {
+    part.of_a_table =
+        model.planes[part.plane].normal.z() > 0.0F && part.high.z() < origin.z() &&
+        (is_above_floor(model, part, *floor) || is_of_table_tops(model, part, *floor));
+  }
+  std::erase_if(parts_, [](const Part& part) { return part.of_a_table; });
+}
+
+// At a height where rays pass around most of what is seen: tables are of one height, and what
+// stands beside what was seen of the floor, or before a cupboard, is not passed itself.
+bool FlatSurfaces::is_of_table_tops(const Model& model, const Part& part,
+                                    const Part& floor) const noexcept {
+  if (part.plane == floor.plane || model.planes[floor.plane].height_of(part.low) < kTableM) {
+    return false;
+  }
+  const auto cells_of = [&](const std::vector<Part>& parts) {
+    std::size_t cells = 0;
+    for (const Part& other : parts) cells += other.plane == part.plane ? other.cells : 0U;
+    return cells;
+  };
+  return cells_of(open_parts_) > cells_of(parts_);
 }
 
 // Undersides of shelves are small and have something seen above them somewhere. Of a ceiling in the

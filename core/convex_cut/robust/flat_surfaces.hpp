@@ -12,7 +12,8 @@ namespace convexcut::robust {
 
 // Floors, ceilings and slopes: of the planes that are not vertical, the connected parts around
 // which nothing is seen behind. A table's top is passed by rays to the floor on all sides; where
-// these are hidden, it is told by the floor that goes on around it, in one part or several.
+// these are hidden, it is told by the floor that goes on around it, in one part or several, or by
+// other tables of its height.
 class FlatSurfaces {
  public:
   FlatSurfaces();
@@ -31,6 +32,7 @@ class FlatSurfaces {
     std::int16_t id = 0;
     std::size_t cells = 0;
     Vec3f low, high;  // of its cells' centres
+    bool of_a_table = false;
   };
   void add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid, std::int16_t id,
                 std::vector<Part>& parts) noexcept;
@@ -38,6 +40,8 @@ class FlatSurfaces {
                                                 const Vec3f& origin) const noexcept;
   [[nodiscard]] static bool is_above_floor(const Model& model, const Part& part,
                                            const Part& floor) noexcept;
+  [[nodiscard]] bool is_of_table_tops(const Model& model, const Part& part,
+                                      const Part& floor) const noexcept;
   void reject_table_tops(const Model& model, const Vec3f& origin) noexcept;
   void reject_undersides(const Model& model) noexcept;
   static void accept(Model& model, PlaneGrids& grids, const Part& part) noexcept;

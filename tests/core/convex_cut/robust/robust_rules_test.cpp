@@ -33,6 +33,19 @@ TEST(RobustRules, RemovesATableBetweenTwoPartsOfTheFloor) {
   EXPECT_LT(cut(corridor, {}).share_of(0), kMostlyRemoved);
 }
 
+// Of the floor only what is before the tilted lidar is in view. The table behind it stands between
+// cupboards; the others, of its height, are passed around.
+TEST(RobustRules, RemovesATableBesideTheFloorByOthersOfItsHeight) {
+  BoxRoom room;
+  room.walls = {{-3.0, -3.2, -1.25}, {3.0, 3.2, 1.65}};
+  room.boxes = {{{-2.0, 1.2, -0.55}, {-1.0, 2.4, -0.52}},
+                {{-3.0, 1.0, -1.25}, {-2.0, 2.6, -0.3}},
+                {{-2.0, 2.4, -1.25}, {-1.0, 3.2, -0.3}},
+                {{-0.2, -2.2, -0.55}, {1.8, -0.6, -0.52}},
+                {{-0.2, 0.4, -0.55}, {1.6, 1.4, -0.52}}};
+  EXPECT_LT(cut(room, {.tilt_deg = 30.0}).share_of(0), kRemoved);
+}
+
 TEST(RobustRules, RemovesTheUndersideOfAShelfAndKeepsThatOfABulkhead) {
   BoxRoom room;
   room.walls = {{-3.0, -3.0, -1.2}, {2.0, 3.0, 1.6}};
