@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <deque>
 #include <map>
 #include <random>
@@ -16,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/convex_cut/robust/cell_set.hpp"
 #include "core/convex_cut/robust/shape_kernels.hpp"
 #include "core/convex_cut/robust/window.hpp"
 #include "core/simd/simd_path.hpp"
@@ -326,6 +328,34 @@ CONVEXCUT_ON_EVERY_SIMD_PATH(RobustShapes);
   robust::Verdict verdict = robust::Verdict::as_now;
   for (const char decision : decisions) verdict = verdicts.add(decision == 's');
   return verdict;
+}
+
+TEST(RobustCellSet, TakesOutWhatIsWithinReachAndNothingElse) {
+  constexpr std::int32_t kColumns = 11;
+  constexpr std::int32_t kRows = 9;
+  using Places = std::set<std::array<std::int32_t, 2>>;
+  std::mt19937 random(9);
+  robust::CellSet set(kColumns * kRows);
+  for (int i = 0; i < 200; ++i) {
+    Places expected;
+    set.assign(kColumns, kRows, false);
+    for (std::int32_t k = 0; k < kColumns * kRows; ++k) {
+      if (random() % 2 == 0) continue;
+      set.insert(k % kColumns, k / kColumns);
+      expected.insert({k % kColumns, k / kColumns});
+    }
+    const auto column = static_cast<std::int32_t>(2 + random() % (kColumns - 4));
+    const auto row = static_cast<std::int32_t>(2 + random() % (kRows - 4));
+    Places taken;
+    set.take_around(column, row, [&](std::int32_t c, std::int32_t r) { taken.insert({c, r}); });
+    for (std::int32_t k = 0; k < kColumns * kRows; ++k) {
+      const std::array<std::int32_t, 2> at{k % kColumns, k / kColumns};
+      const bool within = std::abs(at[0] - column) <= 2 && std::abs(at[1] - row) <= 2;
+      const bool was_in = expected.contains(at);
+      ASSERT_EQ(taken.contains(at), was_in && within);
+      ASSERT_EQ(set.contains(at[0], at[1]), was_in && !within);
+    }
+  }
 }
 
 TEST(RobustVerdicts, TheFirstRevolutionDecidesAlone) {
