@@ -16,9 +16,15 @@ constexpr float kFarthestM = 0.40F;
 constexpr float kOnSurfaceM = 0.06F;
 constexpr std::int32_t kReach = 2;  // cells: the distance of shelves
 
-// near: the planes that p is near.
-[[nodiscard]] bool is_on_structure(const Model& model, const PlaneGrids& grids, const Vec3f& p,
+// near: the planes that the surfel is near. Most lie on structure of their own plane.
+[[nodiscard]] bool is_on_structure(const Model& model, const PlaneGrids& grids, std::size_t surfel,
                                    std::uint64_t near) noexcept {
+  const Vec3f& p = model.surfels[surfel].mean;
+  const std::int32_t own = model.surfels[surfel].plane;
+  if (own != kNoPlane && grids.is_on_structure(surfel) &&
+      std::abs(model.planes[static_cast<std::size_t>(own)].height_of(p)) < kOnSurfaceM) {
+    return true;
+  }
   for (; near != 0; near &= near - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(near));
     if (std::abs(model.planes[k].height_of(p)) < kOnSurfaceM && grids.is_structure(k, p, 1)) {
@@ -74,9 +80,9 @@ void mark_backs(const Model& model, PlaneGrids& grids) noexcept {
     find_planes({rays.column(3) + begin, rays.column(4) + begin, rays.column(5) + begin},
                 model.planes, accepted, kFarthestM, near);
     for (std::size_t i = 0; i < std::min(kPointsAtOnce, rays.size() - begin); ++i) {
-      const Surfel& surfel = model.surfels[rays.surfel(begin + i)];
-      if (near[i] != 0 && !is_on_structure(model, grids, surfel.mean, near[i])) {
-        mark_before(model, grids, surfel, near[i]);
+      const std::uint32_t surfel = rays.surfel(begin + i);
+      if (near[i] != 0 && !is_on_structure(model, grids, surfel, near[i])) {
+        mark_before(model, grids, model.surfels[surfel], near[i]);
       }
     }
   }

@@ -57,8 +57,7 @@ void Curved::take_seeds(const Model& model, const PlaneGrids& grids) noexcept {
       state_[i] = kRefused;
       continue;
     }
-    const bool on_wall = surfel.plane != kNoPlane &&
-                         grids.is_structure(static_cast<std::size_t>(surfel.plane), surfel.mean, 0);
+    const bool on_wall = surfel.plane != kNoPlane && grids.is_on_structure(i);
     if (on_wall) {
       state_[i] = kReached;
     } else if (surfel.plane != kNoPlane && !is_on_narrow(model, grids, surfel)) {

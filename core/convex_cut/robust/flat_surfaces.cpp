@@ -12,7 +12,6 @@ namespace convexcut::robust {
 namespace {
 
 constexpr std::size_t kMostCellsOfAPart = 1U << 18U;
-constexpr std::int32_t kReach = 2;  // cells: gaps within a part, and the ring around it
 constexpr std::size_t kLeastCells = 6;
 constexpr std::size_t kLeastCeilingCells = 20;  // less is the underside of a shelf
 constexpr std::size_t kMostParts = 4'096;
@@ -29,16 +28,6 @@ constexpr std::uint32_t kLargeSurfels = 30;
 constexpr float kAboveM = 0.15F;
 constexpr std::ptrdiff_t kMostAbove = 2;
 
-template <class Visit>
-void for_each_within_reach(const PlaneGrid& grid, std::int32_t column, std::int32_t row,
-                           Visit&& visit) noexcept {
-  for (std::int32_t r = row - kReach; r <= row + kReach; ++r) {
-    for (std::int32_t c = column - kReach; c <= column + kReach; ++c) {
-      if (grid.holds(c, r)) visit(c, r);
-    }
-  }
-}
-
 [[nodiscard]] Eigen::Array2f level_size_m(const Vec3f& low, const Vec3f& high) noexcept {
   return (high - low).head<2>().array() + kCellM;
 }
@@ -53,7 +42,8 @@ void for_each_within_reach(const PlaneGrid& grid, std::int32_t column, std::int3
 
 }  // namespace
 
-FlatSurfaces::FlatSurfaces() {
+// Gaps within a part, and the ring around it, are as wide as CellSet reaches.
+FlatSurfaces::FlatSurfaces() : unclaimed_(kMostCellsOfAPart), outside_(kMostCellsOfAPart) {
   part_.reserve(kMostCellsOfAPart);
   ring_.reserve(kMostCellsOfAPart);
   parts_.reserve(2 * kMostParts);
@@ -67,14 +57,15 @@ void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     if (model.planes[k].vertical || model.planes[k].edge_on) continue;
     const PlaneGrid& grid = grids.grid(k);
+    take_unclaimed(grids, grid);
+    outside_.assign(grid.columns, grid.rows, true);
     std::int16_t id = 0;
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       for (std::int32_t column = 0; column < grid.columns; ++column) {
-        const Cell& cell = grids.cell(grid, column, row);
-        if (cell.seen == 0 || cell.part >= 0) continue;
+        if (!unclaimed_.contains(column, row)) continue;
         collect_part(grids, grid, {column, row}, id);
         if (part_.size() >= kLeastCells) {
-          const bool bounds = !free_space || bounds_free_space(grids, grid, id);
+          const bool bounds = !free_space || bounds_free_space(grids, grid);
           add_part(model.planes[k], k, grid, id, bounds ? parts_ : open_parts_);
         }
         ++id;
@@ -90,6 +81,15 @@ void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
   const std::size_t before = parts_.size();
   add_beams(model);
   for (std::size_t i = before; i < parts_.size(); ++i) accept(model, grids, parts_[i]);
+}
+
+void FlatSurfaces::take_unclaimed(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
+  unclaimed_.assign(grid.columns, grid.rows, false);
+  for (std::int32_t row = 0; row < grid.rows; ++row) {
+    for (std::int32_t column = 0; column < grid.columns; ++column) {
+      if (grids.cell(grid, column, row).seen > 0) unclaimed_.insert(column, row);
+    }
+  }
 }
 
 void FlatSurfaces::add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid,
@@ -239,35 +239,37 @@ void FlatSurfaces::find_levels(Model& model, const Vec3f& origin) noexcept {
 void FlatSurfaces::collect_part(PlaneGrids& grids, const PlaneGrid& grid, Place seed,
                                 std::int16_t id) noexcept {
   part_.clear();
-  part_.push_back(seed);
-  grids.cell(grid, seed.column, seed.row).part = id;
+  const auto claim = [&](std::int32_t column, std::int32_t row) {
+    grids.cell(grid, column, row).part = id;
+    part_.push_back({column, row});
+  };
+  unclaimed_.erase(seed.column, seed.row);
+  claim(seed.column, seed.row);
   for (std::size_t next = 0; next < part_.size(); ++next) {
     const Place at = part_[next];
-    for_each_within_reach(grid, at.column, at.row, [&](std::int32_t c, std::int32_t r) {
-      Cell& cell = grids.cell(grid, c, r);
-      if (cell.seen == 0 || cell.part >= 0) return;
-      cell.part = id;
-      part_.push_back({c, r});
-    });
+    unclaimed_.take_around(at.column, at.row, claim);
   }
 }
 
-bool FlatSurfaces::bounds_free_space(PlaneGrids& grids, const PlaneGrid& grid,
-                                     std::int16_t id) noexcept {
+bool FlatSurfaces::bounds_free_space(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
+  const auto is_open = [&](std::int32_t column, std::int32_t row) {
+    return grids.cell(grid, column, row).passed >= kPassed ? 1U : 0U;
+  };
   ring_.clear();
   std::size_t open_inside = 0;
   std::size_t open_ring = 0;
   for (const Place& at : part_) {
-    open_inside += grids.cell(grid, at.column, at.row).passed >= kPassed ? 1U : 0U;
-    for_each_within_reach(grid, at.column, at.row, [&](std::int32_t c, std::int32_t r) {
-      Cell& cell = grids.cell(grid, c, r);
-      if (cell.part == id || cell.visited) return;
-      cell.visited = true;
-      ring_.push_back({c, r});
-      open_ring += cell.passed >= kPassed ? 1U : 0U;
+    outside_.erase(at.column, at.row);
+    open_inside += is_open(at.column, at.row);
+  }
+  for (const Place& at : part_) {
+    outside_.take_around(at.column, at.row, [&](std::int32_t column, std::int32_t row) {
+      ring_.push_back({column, row});
+      open_ring += is_open(column, row);
     });
   }
-  for (const Place& at : ring_) grids.cell(grid, at.column, at.row).visited = false;
+  for (const Place& at : part_) outside_.insert(at.column, at.row);
+  for (const Place& at : ring_) outside_.insert(at.column, at.row);
   return static_cast<float>(open_ring) < kMostOpenRing * static_cast<float>(ring_.size()) &&
          static_cast<float>(open_inside) < kMostOpenInside * static_cast<float>(part_.size());
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/convex_cut/robust/cell_set.hpp"
 #include "core/convex_cut/robust/model.hpp"
 #include "core/convex_cut/robust/plane_grid.hpp"
 
@@ -34,6 +35,7 @@ class FlatSurfaces {
     Vec3f low, high;  // of its cells' centres
     bool of_a_table = false;
   };
+  void take_unclaimed(const PlaneGrids& grids, const PlaneGrid& grid) noexcept;
   void add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid, std::int16_t id,
                 std::vector<Part>& parts) noexcept;
   [[nodiscard]] std::optional<Part> whole_floor(const Model& model,
@@ -48,11 +50,12 @@ class FlatSurfaces {
   void add_beams(const Model& model) noexcept;
   static void find_levels(Model& model, const Vec3f& origin) noexcept;
   void collect_part(PlaneGrids& grids, const PlaneGrid& grid, Place seed, std::int16_t id) noexcept;
-  [[nodiscard]] bool bounds_free_space(PlaneGrids& grids, const PlaneGrid& grid,
-                                       std::int16_t id) noexcept;
+  [[nodiscard]] bool bounds_free_space(const PlaneGrids& grids, const PlaneGrid& grid) noexcept;
 
   std::vector<Place> part_;  // also the queue of the search for it
   std::vector<Place> ring_;
+  CellSet unclaimed_;  // cells of the plane that were seen and are in no part yet
+  CellSet outside_;    // cells that are neither in the part at hand nor in its ring
   std::vector<Part> parts_;
   std::vector<Part> open_parts_;  // that are passed around
 };

@@ -19,7 +19,8 @@ constexpr float kSameNormal = 0.85F;
 constexpr float kPassedM = 0.1F;  // beside a place that a ray passes
 constexpr float kGoesOnM = 0.3F;
 constexpr std::size_t kMostAsked = 48;
-constexpr float kMostContradicted = 0.1F;  // of what has a counterpart
+constexpr std::size_t kMostReflected = 256;  // surfels of a hole: their share to 4 %
+constexpr float kMostContradicted = 0.1F;    // of what has a counterpart
 constexpr std::uint32_t kLeastInformative = 6;
 constexpr float kLeastMatching = 0.4F;
 constexpr float kLeastFrame = 0.35F;
@@ -189,12 +190,14 @@ bool Mirrors::is_image(const Model& model, const VoxelMap& map, const Plane& pla
     }
   }
   if (informative_.size() < kLeastInformative) return false;
-  const float least = kLeastMatching * static_cast<float>(informative_.size());
+  const std::size_t step = (informative_.size() - 1) / kMostReflected + 1;
+  const std::size_t asked = (informative_.size() - 1) / step + 1;
+  const float least = kLeastMatching * static_cast<float>(asked);
   std::size_t matching = 0;
-  for (std::size_t i = 0; i < informative_.size(); ++i) {
-    const std::size_t most = matching + informative_.size() - i;
+  for (std::size_t i = 0; i < asked; ++i) {
+    const std::size_t most = matching + asked - i;
     if (static_cast<float>(most) <= least) return false;
-    matching += has_counterpart(model, map, plane, model.surfels[informative_[i]]) ? 1U : 0U;
+    matching += has_counterpart(model, map, plane, model.surfels[informative_[i * step]]) ? 1U : 0U;
     if (static_cast<float>(matching) > least) return true;
   }
   return false;

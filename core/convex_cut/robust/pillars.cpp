@@ -123,7 +123,7 @@ void Pillars::take_columns(const Model& model, const PlaneGrids& grids,
     if (surfel.plane != kNoPlane) {
       const auto plane = static_cast<std::size_t>(surfel.plane);
       if (!model.planes[plane].vertical) continue;
-      wall = (walls >> plane & 1U) != 0 && grids.is_structure(plane, surfel.mean, 0);
+      wall = (walls >> plane & 1U) != 0 && grids.is_on_structure(i);
     }
     column_of_surfel_[i] = add_voxel(map.voxels()[i], surfel.supported, wall);
   }

@@ -47,6 +47,8 @@ struct Bounds {
 
 PlaneGrids::PlaneGrids(std::size_t max_surfels) : rays_(max_surfels) {
   grids_.reserve(PlaneSearch::kMostPlanes);
+  sites_.reserve(max_surfels);
+  cell_of_surfel_.resize(max_surfels);
   cells_.reserve(kMostCells);
   extents_.reserve(kMostExtents);
   passable_.reserve(kMostExtents);
@@ -68,12 +70,15 @@ void PlaneGrids::build(Model& model) noexcept {
 void PlaneGrids::lay_out(Model& model) noexcept {
   std::array<Bounds, PlaneSearch::kMostPlanes> bounds;
   for (const Plane& plane : model.planes) grids_.push_back(axes_of(plane));
-  for (const Surfel& surfel : model.surfels) {
+  sites_.clear();
+  for (std::size_t i = 0; i < model.surfels.size(); ++i) {
+    const Surfel& surfel = model.surfels[i];
     if (surfel.plane == kNoPlane) continue;
     const auto k = static_cast<std::size_t>(surfel.plane);
     Bounds& b = bounds[k];
     const std::int32_t along = grids_[k].column_of(surfel.mean);
     const std::int32_t up = grids_[k].row_of(surfel.mean);
+    sites_.push_back({static_cast<std::uint32_t>(i), along, up});
     b.low_along = std::min(b.low_along, along);
     b.high_along = std::max(b.high_along, along);
     b.low_up = std::min(b.low_up, up);
@@ -100,12 +105,14 @@ void PlaneGrids::lay_out(Model& model) noexcept {
 }
 
 void PlaneGrids::mark_seen(const Model& model) noexcept {
-  for (const Surfel& surfel : model.surfels) {
-    if (surfel.plane == kNoPlane) continue;
+  for (const Site& site : sites_) {
+    const Surfel& surfel = model.surfels[site.surfel];
     const PlaneGrid& g = grids_[static_cast<std::size_t>(surfel.plane)];
-    const std::int32_t column = g.column_of(surfel.mean);
-    const std::int32_t row = g.row_of(surfel.mean);
+    const std::int32_t column = site.along - g.first_along;
+    const std::int32_t row = site.up - g.first_up;
+    cell_of_surfel_[site.surfel] = kNoCell;
     if (!g.holds(column, row)) continue;
+    cell_of_surfel_[site.surfel] = static_cast<std::uint32_t>(index(g, column, row));
     Cell& seen = cell(g, column, row);
     ++seen.seen;
     seen.points += surfel.points;

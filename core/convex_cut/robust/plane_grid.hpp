@@ -13,6 +13,7 @@
 
 #include "core/convex_cut/robust/model.hpp"
 #include "core/convex_cut/robust/rays.hpp"
+#include "core/workspace.hpp"
 
 namespace convexcut::robust {
 
@@ -107,6 +108,11 @@ class PlaneGrids {
   // Whether the cell at p, or one within `around` of it, is structure; not where it is enclosed.
   [[nodiscard]] bool is_structure(std::size_t plane, const Vec3f& p,
                                   std::int32_t around) const noexcept;
+  // Whether the cell of the plane that the surfel lies on is; only of those that lie on one.
+  [[nodiscard]] bool is_on_structure(std::size_t surfel) const noexcept {
+    const std::uint32_t at = cell_of_surfel_[surfel];
+    return at != kNoCell && cells_[at].structure && !cells_[at].enclosed;
+  }
 
   // The same at once, when all is decided: for the two below.
   void mark_reach(const Model& model) noexcept;
@@ -136,6 +142,13 @@ class PlaneGrids {
            static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
            static_cast<std::size_t>(column);
   }
+  // Of a surfel on its plane, in cells from the frame's origin.
+  struct Site {
+    std::uint32_t surfel;
+    std::int32_t along, up;
+  };
+  static constexpr std::uint32_t kNoCell = 0xFFFF'FFFF;
+
   void lay_out(Model& model) noexcept;
   void mark_seen(const Model& model) noexcept;
   void widen_extents() noexcept;
@@ -162,6 +175,8 @@ class PlaneGrids {
   void widen(std::size_t width, std::size_t by) noexcept;
 
   std::vector<PlaneGrid> grids_;
+  std::vector<Site> sites_;  // of the surfels on planes
+  Workspace<std::uint32_t> cell_of_surfel_;
   std::vector<std::uint8_t> reach_;                // kBeside, kWithinReach
   std::vector<std::uint8_t> structure_, widened_;  // of a plane with reach
   std::vector<Cell> cells_;

@@ -36,7 +36,7 @@ namespace convexcut {
 
 class RobustCut {
  public:
-  // Allocates everything it will ever need: 4 bytes a point and about 76 MB for thirty
+  // Allocates everything it will ever need: 4 bytes a point and about 78 MB for thirty
   // revolutions. Throws std::invalid_argument when the parameters are not valid or max_points
   // exceeds 2³¹, and std::bad_alloc.
   RobustCut(const RobustParameters& parameters, std::size_t max_points);

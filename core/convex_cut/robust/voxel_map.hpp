@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -66,10 +67,15 @@ struct Voxel {
   Vec3f direction = Vec3f::Zero();
   std::uint32_t place = 0;  // among those of the map
   Shape shape = Shape::other;
-  bool changed = true;  // since the shape was taken
+  std::uint16_t changed = 0;  // points that came or went since the shape was taken
   Verdicts verdicts;
 
   [[nodiscard]] Vec3f mean() const noexcept { return centre_of(place_of(key)) + moments.mean_m(); }
+  void change(const Moments& by, std::int32_t sign) noexcept {
+    moments.add(by, sign);
+    constexpr std::int32_t kMost = std::numeric_limits<std::uint16_t>::max();
+    changed = static_cast<std::uint16_t>(std::min(changed + by.count, kMost));
+  }
 };
 
 // The voxels lie in the order of their addition. The hash is of blocks of 4 × 4 × 4 of them: a

@@ -8,6 +8,19 @@
 #include "core/convex_cut/robust/shape.hpp"
 
 namespace convexcut::robust {
+namespace {
+
+constexpr std::uint32_t kTurns = 4;         // revolutions
+constexpr std::int32_t kHardlyChanged = 3;  // a third of the points; in a full window, four turns'
+
+// Where most of a voxel's points are as they were, its shape hardly changes from one revolution to
+// the next: such voxels take turns, by their place, so that no revolution has all of them.
+[[nodiscard]] bool is_due(const Voxel& voxel, std::uint32_t revolution) noexcept {
+  const VoxelKey place = voxel.key + (voxel.key >> 21U) + (voxel.key >> 42U);
+  return kHardlyChanged * voxel.changed > voxel.moments.count || (place + revolution) % kTurns == 0;
+}
+
+}  // namespace
 
 Window::Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std::size_t voxels)
     : slots_(revolutions), map_(voxels) {
@@ -43,9 +56,8 @@ void Window::add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t 
     merged_[i] = index;
     if (index == VoxelMap::kNone) continue;
     Voxel& merged = map_.voxels()[static_cast<std::size_t>(index)];
-    merged.moments.add(voxel.moments, +1);
+    merged.change(voxel.moments, +1);
     merged.revolution = newest_;
-    merged.changed = true;
     entry(slot, slot.count++) = {voxel.key, voxel.moments};
   }
   used_ += slot.count;
@@ -59,9 +71,7 @@ void Window::forget_oldest() noexcept {
     const auto& [key, moments] = entry(slot, i);
     const std::int32_t index = map_.find(key);
     if (index == VoxelMap::kNone) continue;
-    Voxel& merged = map_.voxels()[static_cast<std::size_t>(index)];
-    merged.moments.add(moments, -1);
-    merged.changed = true;
+    map_.voxels()[static_cast<std::size_t>(index)].change(moments, -1);
   }
   used_ -= slot.count;
 }
@@ -69,12 +79,16 @@ void Window::forget_oldest() noexcept {
 void Window::take_shapes() noexcept {
   std::array<std::uint32_t, kShapesAtOnce> changed;
   std::size_t count = 0;
+  const bool take_turns = map_.size() > kLargeMap;
   for (std::size_t i = 0; i < map_.size(); ++i) {
     Voxel& voxel = map_.voxels()[i];
-    if (!voxel.changed) continue;
-    voxel.changed = false;
-    voxel.shape = Shape::other;
-    if (voxel.moments.count < kSupport) continue;
+    if (voxel.changed == 0) continue;
+    if (voxel.moments.count < kSupport) {
+      voxel.shape = Shape::other;
+      continue;
+    }
+    if (take_turns && !is_due(voxel, newest_)) continue;
+    voxel.changed = 0;
     changed[count++] = static_cast<std::uint32_t>(i);
     if (count < kShapesAtOnce) continue;
     robust::take_shapes(map_, changed);

@@ -19,6 +19,8 @@ class Window {
   // are kUsualVoxels on the average: where there are more, and where a rig goes on so fast that
   // they do not cover each other, fewer revolutions are kept.
   static constexpr std::size_t kUsualVoxels = 14'336;  // in a hall of 60 m
+  // Voxels; a room has half as many, and time for all shapes in each revolution.
+  static constexpr std::size_t kLargeMap = 20'000;
   Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std::size_t voxels);
 
   void clear() noexcept;

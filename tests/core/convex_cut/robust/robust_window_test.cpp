@@ -3,8 +3,10 @@
 // What RobustCut keeps from call to call equals what is made anew from the same revolutions; shapes
 // are those of Eigen's closed form, earlier decisions weigh as they should, and no instruction set
 // changes a label. Says nothing about what the labels are worth.
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <deque>
 #include <map>
 #include <random>
@@ -15,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/convex_cut/robust/cell_set.hpp"
 #include "core/convex_cut/robust/shape_kernels.hpp"
 #include "core/convex_cut/robust/window.hpp"
 #include "core/simd/simd_path.hpp"
@@ -149,6 +152,66 @@ TEST(RobustWindow, KeepsFewerRevolutionsOfARigThatLeavesThemBehind) {
   }
 }
 
+// A large floor that is a little uneven.
+constexpr std::int32_t kFloorEdge = 144;
+constexpr std::size_t kFloorVoxels = std::size_t{kFloorEdge} * kFloorEdge;
+static_assert(kFloorVoxels > Window::kLargeMap);
+
+[[nodiscard]] VoxelMap uneven_floor(std::mt19937& random, int points_of_a_voxel) {
+  const auto any = [&](std::int32_t most) {
+    return std::uniform_int_distribution<std::int32_t>(-most, most)(random);
+  };
+  VoxelMap map(kFloorVoxels);
+  for (std::int32_t v = 0; v < kFloorEdge * kFloorEdge; ++v) {
+    const auto index = static_cast<std::size_t>(
+        map.find_or_add(robust::key_of({v % kFloorEdge, v / kFloorEdge, 0})));
+    for (int i = 0; i < points_of_a_voxel; ++i) {
+      map.voxels()[index].moments.add_mm(any(95), any(95), any(10));
+    }
+  }
+  return map;
+}
+
+// Thirty revolutions of one, of which none equals the one that it takes the place of.
+class RobustShapesOfAFloor : public ::testing::Test {
+ protected:
+  RobustShapesOfAFloor() {
+    for (int i = 0; i < 7; ++i) floors_.push_back(uneven_floor(random_, 12));
+    for (int i = 0; i < 32; ++i) add_next();
+  }
+  // Which voxels have another direction then.
+  std::vector<bool> add(const VoxelMap& revolution) {
+    const std::vector<Voxel> before(window_.map().voxels().begin(), window_.map().voxels().end());
+    window_.add(revolution, Vec3f::Zero(), 30);
+    std::vector<bool> changed;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+      changed.push_back(before[v].direction != window_.map().voxels()[v].direction);
+    }
+    return changed;
+  }
+  std::vector<bool> add_next() { return add(floors_[next_++ % floors_.size()]); }
+
+  std::mt19937 random_{3};
+  std::vector<VoxelMap> floors_;
+  std::size_t next_ = 0;
+  Window window_{30, kFloorVoxels, 2 * kFloorVoxels};
+};
+
+TEST_F(RobustShapesOfAFloor, AreTakenInTurnsWhereTheyHardlyChange) {
+  std::vector<int> times(kFloorVoxels);
+  for (int i = 0; i < 8; ++i) {
+    const std::vector<bool> changed = add_next();
+    EXPECT_LT(std::ranges::count(changed, true), kFloorVoxels * 2 / 5) << i;
+    for (std::size_t v = 0; v < kFloorVoxels; ++v) times[v] += changed[v] ? 1 : 0;
+  }
+  EXPECT_GE(std::ranges::min(times), 2);
+}
+
+TEST_F(RobustShapesOfAFloor, AreTakenAtOnceWhereTheyChangeMuch) {
+  const std::vector<bool> changed = add(uneven_floor(random_, 200));
+  EXPECT_EQ(std::ranges::count(changed, true), kFloorVoxels);
+}
+
 // Points about the middle of a voxel: on a plane, a line, anywhere, or all of them one.
 [[nodiscard]] robust::Moments random_moments(std::mt19937& random, int kind) {
   const auto any = [&](std::int32_t from, std::int32_t to) {
@@ -265,6 +328,34 @@ CONVEXCUT_ON_EVERY_SIMD_PATH(RobustShapes);
   robust::Verdict verdict = robust::Verdict::as_now;
   for (const char decision : decisions) verdict = verdicts.add(decision == 's');
   return verdict;
+}
+
+TEST(RobustCellSet, TakesOutWhatIsWithinReachAndNothingElse) {
+  constexpr std::int32_t kColumns = 11;
+  constexpr std::int32_t kRows = 9;
+  using Places = std::set<std::array<std::int32_t, 2>>;
+  std::mt19937 random(9);
+  robust::CellSet set(kColumns * kRows);
+  for (int i = 0; i < 200; ++i) {
+    Places expected;
+    set.assign(kColumns, kRows, false);
+    for (std::int32_t k = 0; k < kColumns * kRows; ++k) {
+      if (random() % 2 == 0) continue;
+      set.insert(k % kColumns, k / kColumns);
+      expected.insert({k % kColumns, k / kColumns});
+    }
+    const auto column = static_cast<std::int32_t>(2 + random() % (kColumns - 4));
+    const auto row = static_cast<std::int32_t>(2 + random() % (kRows - 4));
+    Places taken;
+    set.take_around(column, row, [&](std::int32_t c, std::int32_t r) { taken.insert({c, r}); });
+    for (std::int32_t k = 0; k < kColumns * kRows; ++k) {
+      const std::array<std::int32_t, 2> at{k % kColumns, k / kColumns};
+      const bool within = std::abs(at[0] - column) <= 2 && std::abs(at[1] - row) <= 2;
+      const bool was_in = expected.contains(at);
+      ASSERT_EQ(taken.contains(at), was_in && within);
+      ASSERT_EQ(set.contains(at[0], at[1]), was_in && !within);
+    }
+  }
 }
 
 TEST(RobustVerdicts, TheFirstRevolutionDecidesAlone) {
