@@ -188,6 +188,7 @@ void RobustCut::analyse() noexcept {
   if (parameters_.pillars) {
     is_pillar_ = pillars_.find(model_, grids_, window_.map(), window_.origin());
   }
+  recesses_.find(model_);
   grids_.mark_reach(model_);
 }
 
@@ -252,6 +253,9 @@ RobustCut::Near RobustCut::near_of(std::int32_t in_window, std::uint64_t planes)
     if (known && is_fixture(model_.surfels[merged], k)) continue;
     near.planes.at(near.count++) = static_cast<std::uint8_t>(k);
   }
+  if (known) {
+    near.recess = recesses_.recess_of(model_, grids_, model_.surfels[merged], parameters_.band_m);
+  }
   return near;
 }
 
@@ -299,7 +303,8 @@ bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept 
       return true;
     }
   }
-  return near.unexplained;
+  return near.unexplained || (near.recess != robust::Recesses::kNone &&
+                              recesses_.holds(model_, near.recess, p, parameters_.band_m));
 }
 
 void RobustCut::label_points(const CloudView& cloud, std::span<Label> labels) noexcept {

@@ -26,6 +26,7 @@
 #include "core/convex_cut/robust/plane_grid.hpp"
 #include "core/convex_cut/robust/plane_search.hpp"
 #include "core/convex_cut/robust/pose.hpp"
+#include "core/convex_cut/robust/recesses.hpp"
 #include "core/convex_cut/robust/voxel_map.hpp"
 #include "core/convex_cut/robust/walls.hpp"
 #include "core/convex_cut/robust/window.hpp"
@@ -66,7 +67,8 @@ class RobustCut {
     static constexpr std::size_t kMost = 4;
     std::array<std::uint8_t, kMost> planes{};
     std::uint8_t count = 0;
-    bool unexplained = false;  // by planes, but structure
+    bool unexplained = false;                               // by planes, but structure
+    robust::Recesses::Id recess = robust::Recesses::kNone;  // whose side it is
     robust::Verdict verdict = robust::Verdict::as_now;
     std::int32_t structure = 0;  // points
   };
@@ -102,6 +104,7 @@ class RobustCut {
   robust::Mirrors mirrors_;
   robust::Curved curved_;
   robust::Pillars pillars_;
+  robust::Recesses recesses_;
   std::span<const std::uint8_t> is_curved_, is_pillar_;  // by surfel
   std::vector<Near> near_;                               // by voxel of the revolution
   robust::RigPose pose_;

@@ -305,6 +305,18 @@ TEST(RobustRules, APaneInARecessDoesNotRejectItsWall) {
   EXPECT_GT(cut(room, {}).share_of(0), kKept);
 }
 
+// The last box is the sill alone: half of it is farther from both planes than their band.
+TEST(RobustRules, KeepsTheSillOfAWindow) {
+  BoxRoom room;
+  room.walls = {{-4.0, -3.0, -1.2}, {4.0, 3.0, 1.6}};
+  room.boxes = {{{3.75, -3.0, -1.2}, {4.0, -0.8, 1.6}},
+                {{3.75, 0.8, -1.2}, {4.0, 3.0, 1.6}},
+                {{3.75, -0.8, -1.2}, {4.0, 0.8, -0.701}},
+                {{3.75, -0.8, 1.2}, {4.0, 0.8, 1.6}},
+                {{3.75, -0.8, -0.701}, {4.0, 0.8, -0.7}}};
+  EXPECT_GT(cut(room, {.tilt_deg = 10.0}, 6).share_of(4), kKept);
+}
+
 // The niche beside the front is seen as high as the front, or no higher than 2 m.
 TEST(RobustRules, ATallFrontIsFurnitureOnlyBeforeAWallThatWasSeenAsHigh) {
   BoxRoom room;
