@@ -13,8 +13,14 @@ mkdir -p "$folder/out"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+preload=
+if grep -qw amx_tile /proc/cpuinfo; then
+  preload=$work/whole_fp_state.so
+  ${CC:-cc} -O2 -shared -fPIC -o "$preload" "$(dirname "$0")/whole_fp_state.c"
+fi
+
 # The guest's memory is a file in TMPDIR, which has to allow executing.
-TMPDIR=/dev/shm timeout -k 5 "$seconds" linux.uml mem=512M \
+LD_PRELOAD=$preload TMPDIR=/dev/shm timeout -k 5 "$seconds" linux.uml mem=512M \
   ubd0="$work/changes,$image" root=/dev/ubda rootfstype=ext4 rw \
   con0=null,fd:1 con=null ssl=null uml_dir="$work" umid=guest \
   guest.share="$folder" guest.timeout=$((seconds - 20)) \
