@@ -245,6 +245,7 @@ void FlatSurfaces::collect_part(PlaneGrids& grids, const PlaneGrid& grid, Place 
   };
   unclaimed_.erase(seed.column, seed.row);
   claim(seed.column, seed.row);
+  // The part grows on the way. NOLINTNEXTLINE(modernize-loop-convert)
   for (std::size_t next = 0; next < part_.size(); ++next) {
     const Place at = part_[next];
     unclaimed_.take_around(at.column, at.row, claim);

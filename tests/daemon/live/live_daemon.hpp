@@ -67,7 +67,7 @@ class LiveDaemon : public RoomTest {
     daemon_->send(SIGUSR1);
     for (int i = 0; i < 500; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
-      const std::string log = daemon_->err().substr(before);
+      std::string log = daemon_->err().substr(before);
       const std::size_t last = log.find("info health_totals ");
       if (last != std::string::npos && log.find('\n', last) != std::string::npos) return log;
     }
@@ -77,12 +77,12 @@ class LiveDaemon : public RoomTest {
   // Seconds until a source is in a state, by SIGUSR1; fails when it is not within `limit` seconds.
   double becomes(const std::string& source, const std::string& state, double limit) const {
     const auto start = std::chrono::steady_clock::now();
+    std::string wanted = "health_source name=";
+    wanted.append(source).append(" state=").append(state).append(" ");
     for (;;) {
       const std::string now = dump();
       const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-      if (now.find("health_source name=" + source + " state=" + state + " ") != std::string::npos) {
-        return passed.count();
-      }
+      if (now.find(wanted) != std::string::npos) return passed.count();
       if (passed.count() > limit) {
         ADD_FAILURE() << source << " is not " << state << " after " << limit << " s: " << now;
         return passed.count();
