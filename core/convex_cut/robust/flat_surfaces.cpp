@@ -177,10 +177,8 @@ void FlatSurfaces::reject_undersides(const Model& model) noexcept {
   std::array<std::size_t, PlaneSearch::kMostPlanes> cells{};
   for (const Part& part : parts_) cells.at(part.plane) += part.cells;
   std::array<bool, PlaneSearch::kMostPlanes> ceiling{};
-  for (const Part& part : parts_) {
-    ceiling.at(part.plane) = ceiling.at(part.plane) ||
-                             (is_underside(part) && cells.at(part.plane) >= kLeastCeilingCells &&
-                              is_topmost(model, part.plane));
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    ceiling.at(k) = cells.at(k) >= kLeastCeilingCells && is_topmost(model, k);
   }
   std::erase_if(parts_,
                 [&](const Part& part) { return is_underside(part) && !ceiling.at(part.plane); });

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "core/convex_cut/robust/cell_set.hpp"
 #include "core/convex_cut/robust/plane_search.hpp"
 #include "core/convex_cut/robust/ray_kernels.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 constexpr std::size_t kMostCells = 1U << 18U;
 constexpr std::size_t kMostExtents = 1U << 14U;
 constexpr std::int32_t kMargin = 2;  // cells around what was seen
+static_assert(kMargin >= CellSet::kReach, "so that a neighbourhood of what was seen is within");
 // Flat planes reach as far beyond their rectangle, which has at least five rows, on both sides.
 constexpr std::size_t kBeyond = std::size_t{2} * (kFlatReach - kMargin);
 constexpr std::size_t kMostReach = kMostCells + kBeyond * (kMostExtents + kMostCells / 5) +
