@@ -9,11 +9,8 @@ namespace convexcut::robust {
 namespace {
 
 constexpr std::size_t kMostCells = 1U << 16U;
-constexpr std::int32_t kLeastPoints = 20;  // of a cell, for a mean to half a centimetre
-constexpr float kOffM = 0.017F;            // the wall itself is flatter than this
+constexpr float kOffM = 0.017F;  // the wall itself is flatter than this
 constexpr std::size_t kLeastCells = 3;
-constexpr std::uint16_t kPassed = 2;         // one ray alone may be a ghost's
-constexpr std::uint32_t kLargeSurfels = 60;  // of a wall; smaller ones have no sure face
 constexpr float kBinM = 0.004F;
 constexpr std::size_t kBins = 41;  // ±8 cm
 constexpr std::size_t kMiddleBin = kBins / 2;
@@ -28,11 +25,6 @@ constexpr std::int32_t kLeastDoorColumns = 2;
 constexpr std::int32_t kMostDoorColumns = 5;
 constexpr float kSolid = 0.7F;  // share of its columns that a door covers
 
-// Whether rays go through the plane there.
-[[nodiscard]] bool is_hole(const Cell& cell) noexcept {
-  return cell.seen == 0 && cell.passed >= kPassed;
-}
-
 // The height over the plane that most cells have. What is seen above a hole may be a blind.
 [[nodiscard]] float face_of(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
   std::array<std::int32_t, kBins> cells{};
@@ -40,7 +32,7 @@ constexpr float kSolid = 0.7F;  // share of its columns that a door covers
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       const Cell& cell = grids.cell(grid, column, row);
       if (is_hole(cell)) break;
-      if (!cell.structure || cell.points < kLeastPoints) continue;
+      if (!cell.structure || cell.points < kLeastFacePoints) continue;
       const auto bin = static_cast<std::ptrdiff_t>(std::lround(cell.mean_m() / kBinM)) +
                        static_cast<std::ptrdiff_t>(kMiddleBin);
       if (bin > 0 && bin < static_cast<std::ptrdiff_t>(kBins) - 1) {
@@ -60,7 +52,7 @@ constexpr float kSolid = 0.7F;  // share of its columns that a door covers
 }
 
 [[nodiscard]] bool is_off(const Cell& cell, float face_m) noexcept {
-  return cell.structure && !cell.visited && cell.points >= kLeastPoints &&
+  return cell.structure && !cell.visited && cell.points >= kLeastFacePoints &&
          std::abs(cell.mean_m() - face_m) > kOffM;
 }
 
@@ -75,7 +67,7 @@ struct Surroundings {
                                            std::int32_t at_row) noexcept {
   const auto is_face = [&](std::int32_t column, std::int32_t row) {
     const Cell& cell = grids.cell(grid, column, row);
-    return cell.structure && cell.layer_m == 0.0F && cell.points >= kLeastPoints &&
+    return cell.structure && cell.layer_m == 0.0F && cell.points >= kLeastFacePoints &&
            std::abs(cell.mean_m() - face_m) <= kOffM;
   };
   Surroundings around;
@@ -99,9 +91,10 @@ struct Surroundings {
 Fixtures::Fixtures() { layer_.reserve(kMostCells); }
 
 void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
+  faces_.lay(model, grids);
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     Plane& plane = model.planes[k];
-    if (!plane.accepted || !plane.vertical || plane.surfels < kLargeSurfels) continue;
+    if (!plane.accepted || !plane.vertical || plane.surfels < kLargeFaceSurfels) continue;
     const PlaneGrid& grid = grids.grid(k);
     plane.face_m = face_of(grids, grid);
     for (std::int32_t row = 0; row < grid.rows; ++row) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/convex_cut/robust/faces.hpp"
 #include "core/convex_cut/robust/model.hpp"
 #include "core/convex_cut/robust/plane_grid.hpp"
 
@@ -33,6 +34,7 @@ class Fixtures {
                                     float face_m) const noexcept;
   void leave_out_doors(const Model& model, PlaneGrids& grids, std::size_t plane) noexcept;
 
+  Faces faces_;
   std::vector<Place> layer_;  // also the queue of the search for it
 };
 
