@@ -31,7 +31,7 @@ constexpr int kUpSteps = 2;
 constexpr float kBetter = 1.15F;  // times the cells that agree on the face as it was fitted
 
 constexpr float kOnFaceM = 0.012F;  // of a cell's mean; a thinner thing is not told from its wall
-constexpr float kMost = 0.6F;       // share of the cells that a face has
+constexpr float kMost = 0.55F;      // share of the cells that a face has
 
 // Of a wall among others: rooms are built square, so fewer cells suffice.
 constexpr float kSquare = 1.3F;  // times its cells count
