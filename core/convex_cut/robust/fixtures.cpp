@@ -19,8 +19,11 @@ constexpr float kHiddenM = 0.9F;  // over the floor: a door's foot, by a table o
 constexpr float kLeastDoorTopM = 1.7F;
 constexpr float kMostDoorTopM = 2.4F;
 constexpr float kDoorHeightM = 1.5F;
-constexpr float kHalfDoorHeightM = 1.0F;  // of one whose foot is hidden
-constexpr float kRoomHighM = 2.2F;        // a layer as high as that is a part of the wall
+constexpr float kHalfDoorHeightM = 1.0F;   // of one whose foot is hidden
+constexpr float kRoomHighM = 2.2F;         // a layer as high as that is a part of the wall
+constexpr float kLeastHeadM = 1.7F;        // over the floor: of doors and windows
+constexpr float kFootM = 0.35F;            // cells below have points of the floor
+constexpr float kLeastWallShare = 0.125F;  // of the cells seen of it
 constexpr std::int32_t kLeastDoorColumns = 2;
 constexpr std::int32_t kMostDoorColumns = 5;
 constexpr float kSolid = 0.7F;  // share of its columns that a door covers
@@ -60,6 +63,7 @@ constexpr float kSolid = 0.7F;  // share of its columns that a door covers
 struct Surroundings {
   bool above = false, below = false, left = false, right = false;
   bool hole = false;
+  std::int32_t head = 0;  // where above: the lowest row of it
 };
 
 [[nodiscard]] Surroundings surroundings_of(const PlaneGrids& grids, const PlaneGrid& grid,
@@ -73,7 +77,9 @@ struct Surroundings {
   Surroundings around;
   for (std::int32_t row = at_row + 1; row < grid.rows; ++row) {
     const Cell& cell = grids.cell(grid, at_column, row);
-    around.above = around.above || (cell.structure && cell.layer_m == 0.0F);
+    if (around.above || !cell.structure || cell.layer_m != 0.0F) continue;
+    around.above = true;
+    around.head = row;
   }
   for (std::int32_t row = 0; row < at_row; ++row) {
     around.below = around.below || is_face(at_column, row);
@@ -97,6 +103,7 @@ void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
     if (!plane.accepted || !plane.vertical || plane.surfels < kLargeFaceSurfels) continue;
     const PlaneGrid& grid = grids.grid(k);
     plane.face_m = face_of(grids, grid);
+    plane.face_m = wall_behind_face(model, grids, k).value_or(plane.face_m);
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       for (std::int32_t column = 0; column < grid.columns; ++column) {
         if (!is_off(grids.cell(grid, column, row), plane.face_m)) continue;
@@ -153,6 +160,71 @@ bool Fixtures::is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid,
     framed += around.below && around.left && around.right ? 1U : 0U;
   }
   return 2 * hanging > layer_.size() || 2 * framed > layer_.size();
+}
+
+// A board may have more cells than what is seen of its wall, and is taken for the face then.
+std::optional<float> Fixtures::wall_behind_face(const Model& model, PlaneGrids& grids,
+                                                std::size_t plane) noexcept {
+  const PlaneGrid& grid = grids.grid(plane);
+  const float face_m = model.planes[plane].face_m;
+  std::optional<float> found;
+  bool any = false;
+  std::size_t seen = 0;
+  for (std::int32_t row = 0; row < grid.rows; ++row) {
+    for (std::int32_t column = 0; column < grid.columns; ++column) {
+      const Cell& cell = grids.cell(grid, column, row);
+      seen += cell.structure && !cell.enclosed && cell.points >= kLeastFacePoints ? 1U : 0U;
+    }
+  }
+  for (std::int32_t row = 0; row < grid.rows && !found; ++row) {
+    for (std::int32_t column = 0; column < grid.columns && !found; ++column) {
+      const Cell& cell = grids.cell(grid, column, row);
+      if (!is_off(cell, face_m) || cell.mean_m() > face_m) continue;
+      collect_layer(grids, grid, face_m, {column, row});
+      any = true;
+      if (static_cast<float>(layer_.size()) < kLeastWallShare * static_cast<float>(seen) ||
+          !goes_on_below(model, grids, plane)) {
+        continue;
+      }
+      float sum_m = 0.0F;
+      for (const Place& at : layer_) sum_m += grids.cell(grid, at.column, at.row).layer_m;
+      found = face_m + sum_m / static_cast<float>(layer_.size());
+    }
+  }
+  for (std::int32_t row = 0; any && row < grid.rows; ++row) {
+    for (std::int32_t column = 0; column < grid.columns; ++column) {
+      Cell& cell = grids.cell(grid, column, row);
+      cell.visited = false;
+      cell.layer_m = 0.0F;
+    }
+  }
+  return found;
+}
+
+// Whether most of the layer is below the face, which ends lower than the head of any opening: so
+// it is the face that hangs on the layer, a board on a wall.
+bool Fixtures::goes_on_below(const Model& model, const PlaneGrids& grids,
+                             std::size_t plane) const noexcept {
+  const Plane& wall = model.planes[plane];
+  const PlaneGrid& grid = grids.grid(plane);
+  const auto height_m = [&](std::int32_t column, std::int32_t row) {
+    return grid.centre(wall, column, row).z() - model.floor_z;
+  };
+  std::size_t cells = 0;
+  std::size_t below = 0;
+  std::int32_t lowest = grid.rows;
+  std::int32_t highest = 0;
+  for (const Place& at : layer_) {
+    if (height_m(at.column, at.row) < kFootM) continue;
+    ++cells;
+    lowest = std::min(lowest, at.row);
+    highest = std::max(highest, at.row);
+    const Surroundings around = surroundings_of(grids, grid, wall.face_m, at.column, at.row);
+    const bool is_below =
+        around.above && !around.hole && height_m(at.column, around.head) < kLeastHeadM;
+    below += is_below ? 1U : 0U;
+  }
+  return highest > lowest && below >= kLeastCells && 2 * below > cells;
 }
 
 // Column by column: a board beside a door, a cell away, is in the same layer.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/convex_cut/robust/faces.hpp"
@@ -32,6 +33,10 @@ class Fixtures {
   [[nodiscard]] bool is_in_front(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept;
   [[nodiscard]] bool is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid,
                                     float face_m) const noexcept;
+  [[nodiscard]] std::optional<float> wall_behind_face(const Model& model, PlaneGrids& grids,
+                                                      std::size_t plane) noexcept;
+  [[nodiscard]] bool goes_on_below(const Model& model, const PlaneGrids& grids,
+                                   std::size_t plane) const noexcept;
   void leave_out_doors(const Model& model, PlaneGrids& grids, std::size_t plane) noexcept;
 
   Faces faces_;
