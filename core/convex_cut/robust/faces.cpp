@@ -2,7 +2,6 @@
 #include "core/convex_cut/robust/faces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -13,12 +12,6 @@ namespace convexcut::robust {
 namespace {
 
 constexpr std::size_t kMostFaceCells = 1U << 14U;
-constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
-constexpr float kBinM = 0.004F;
-constexpr std::size_t kBins = 41;  // ±8 cm
-constexpr std::size_t kMiddleBin = kBins / 2;
-constexpr float kBinsPerM = 1.0F / kBinM;
-constexpr float kMiddleOfBins = static_cast<float>(kMiddleBin) + 0.5F;
 
 // What can be told from cells: a wall of some size.
 constexpr std::size_t kLeastCells = 8;
@@ -43,21 +36,11 @@ constexpr float kMostLeaningM = 0.04F;
 constexpr float kTurnStep = 0.001F;
 constexpr int kTurns = 20;
 
-constexpr float kLevel = 0.993F;  // cosine: a floor
 constexpr float kUpright = 0.1F;  // sine
 constexpr float kQuarter = std::numbers::pi_v<float> / 2;
 
 [[nodiscard]] float heading_of(const Plane& plane) noexcept {
   return std::atan2(plane.normal.y(), plane.normal.x());
-}
-
-[[nodiscard]] Vec3f normal_of_floor(const Model& model) noexcept {
-  const Plane* floor = nullptr;
-  for (const Plane& plane : model.planes) {
-    if (plane.normal.z() < kLevel) continue;
-    if (floor == nullptr || plane.surfels > floor->surfels) floor = &plane;
-  }
-  return floor == nullptr ? Vec3f(Vec3f::UnitZ()) : floor->normal;
 }
 
 [[nodiscard]] const Plane* largest_wall(const Model& model) noexcept {
@@ -86,8 +69,6 @@ void turn(Plane& plane, PlaneGrids& grids, const PlaneGrid& grid, const Vec3f& m
 
 }  // namespace
 
-bool is_hole(const Cell& cell) noexcept { return cell.seen == 0 && cell.passed >= kPassed; }
-
 Faces::Faces() {
   cells_.reserve(kMostFaceCells);
   walls_.reserve(PlaneSearch::kMostPlanes);
@@ -112,7 +93,8 @@ void Faces::take_walls(const Model& model, const PlaneGrids& grids) noexcept {
   walls_.clear();
   const Plane* largest = largest_wall(model);
   if (largest == nullptr) return;
-  const Vec3f up = normal_of_floor(model);
+  const Plane* floor = largest_floor(model);
+  const Vec3f up = floor == nullptr ? Vec3f(Vec3f::UnitZ()) : floor->normal;
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     const Plane& plane = model.planes[k];
     if (!plane.accepted || !plane.vertical || plane.surfels < kLargeFaceSurfels) continue;
@@ -142,7 +124,7 @@ bool Faces::take_cells(const PlaneGrids& grids, Wall& wall) noexcept {
   for (std::int32_t column = 0; column < grid.columns; ++column) {
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       const Cell& cell = grids.cell(grid, column, row);
-      if (is_hole(cell)) break;
+      if (cell.is_hole()) break;
       if (!cell.structure || cell.enclosed || cell.points < kLeastFacePoints) continue;
       if (cell.passed > 0) ++glass;
       if (cell.passed > 0 || cells_.size() == kMostFaceCells) continue;
@@ -233,21 +215,11 @@ float Faces::height_over(const FaceCell& cell, const Tilt& tilt) noexcept {
   return cell.height_m - tilt.along * cell.along_m - tilt.up * cell.up_m;
 }
 
-// The height that most cells have over the tilted plane, those of the bins beside it by half.
-Faces::Mode Faces::mode_of(const Wall& wall, const Tilt& tilt) const noexcept {
-  std::array<std::int32_t, kBins> cells{};
-  for (std::size_t i = wall.first; i < wall.end; ++i) {
-    // To the next bin, without a call: this is most of the work here.
-    const float at = height_over(cells_[i], tilt) * kBinsPerM + kMiddleOfBins;
-    if (at >= 1.0F && at < static_cast<float>(kBins - 1)) ++cells[static_cast<std::size_t>(at)];
-  }
-  Mode mode;
-  for (std::size_t bin = 1; bin + 1 < kBins; ++bin) {
-    const std::int32_t votes = cells.at(bin - 1) + 2 * cells.at(bin) + cells.at(bin + 1);
-    if (votes <= mode.votes) continue;
-    mode = {votes, (static_cast<float>(bin) - static_cast<float>(kMiddleBin)) * kBinM};
-  }
-  return mode;
+// Of the heights over the tilted plane.
+HeightVotes::Mode Faces::mode_of(const Wall& wall, const Tilt& tilt) const noexcept {
+  HeightVotes votes;
+  for (std::size_t i = wall.first; i < wall.end; ++i) votes.add(height_over(cells_[i], tilt));
+  return votes.mode();
 }
 
 }  // namespace convexcut::robust

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/convex_cut/robust/height_votes.hpp"
 #include "core/convex_cut/robust/model.hpp"
 #include "core/convex_cut/robust/plane_grid.hpp"
 
@@ -16,9 +17,6 @@ namespace convexcut::robust {
 
 inline constexpr std::int32_t kLeastFacePoints = 20;    // of a cell: a mean to half a centimetre
 inline constexpr std::uint32_t kLargeFaceSurfels = 60;  // of a wall; smaller have no sure face
-
-// Whether rays go through the plane there.
-[[nodiscard]] bool is_hole(const Cell& cell) noexcept;
 
 class Faces {
  public:
@@ -36,10 +34,6 @@ class Faces {
   struct Tilt {
     float along = 0.0F, up = 0.0F;  // slopes over the plane
   };
-  struct Mode {
-    std::int32_t votes = 0;
-    float height_m = 0.0F;
-  };
   struct Wall {
     std::size_t plane = 0;
     std::size_t first = 0, end = 0;                   // of its cells
@@ -53,7 +47,7 @@ class Faces {
   [[nodiscard]] float common_heading() const noexcept;
   [[nodiscard]] Tilt tilt_of(const Wall& wall, float heading) const noexcept;
   [[nodiscard]] static float height_over(const FaceCell& cell, const Tilt& tilt) noexcept;
-  [[nodiscard]] Mode mode_of(const Wall& wall, const Tilt& tilt) const noexcept;
+  [[nodiscard]] HeightVotes::Mode mode_of(const Wall& wall, const Tilt& tilt) const noexcept;
   [[nodiscard]] bool is_most_of(const Wall& wall, const Tilt& tilt) const noexcept;
 
   std::vector<FaceCell> cells_;

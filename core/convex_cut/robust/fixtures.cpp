@@ -2,8 +2,9 @@
 #include "core/convex_cut/robust/fixtures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "core/convex_cut/robust/height_votes.hpp"
 
 namespace convexcut::robust {
 namespace {
@@ -11,9 +12,6 @@ namespace {
 constexpr std::size_t kMostCells = 1U << 16U;
 constexpr float kOffM = 0.017F;  // the wall itself is flatter than this
 constexpr std::size_t kLeastCells = 3;
-constexpr float kBinM = 0.004F;
-constexpr std::size_t kBins = 41;  // ±8 cm
-constexpr std::size_t kMiddleBin = kBins / 2;
 constexpr float kToFloorM = 0.4F;
 constexpr float kHiddenM = 0.9F;  // over the floor: a door's foot, by a table or a chair
 constexpr float kLeastDoorTopM = 1.7F;
@@ -30,28 +28,16 @@ constexpr float kSolid = 0.7F;  // share of its columns that a door covers
 
 // The height over the plane that most cells have. What is seen above a hole may be a blind.
 [[nodiscard]] float face_of(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
-  std::array<std::int32_t, kBins> cells{};
+  HeightVotes votes;
   for (std::int32_t column = 0; column < grid.columns; ++column) {
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       const Cell& cell = grids.cell(grid, column, row);
-      if (is_hole(cell)) break;
+      if (cell.is_hole()) break;
       if (!cell.structure || cell.points < kLeastFacePoints) continue;
-      const auto bin = static_cast<std::ptrdiff_t>(std::lround(cell.mean_m() / kBinM)) +
-                       static_cast<std::ptrdiff_t>(kMiddleBin);
-      if (bin > 0 && bin < static_cast<std::ptrdiff_t>(kBins) - 1) {
-        ++cells.at(static_cast<std::size_t>(bin));
-      }
+      votes.add(cell.mean_m());
     }
   }
-  std::size_t best = kMiddleBin;
-  std::int32_t most = 0;
-  for (std::size_t bin = 1; bin + 1 < kBins; ++bin) {
-    const std::int32_t around = cells.at(bin - 1) + 2 * cells.at(bin) + cells.at(bin + 1);
-    if (around <= most) continue;
-    most = around;
-    best = bin;
-  }
-  return (static_cast<float>(best) - static_cast<float>(kMiddleBin)) * kBinM;
+  return votes.mode().height_m;
 }
 
 [[nodiscard]] bool is_off(const Cell& cell, float face_m) noexcept {
@@ -83,7 +69,7 @@ struct Surroundings {
   }
   for (std::int32_t row = 0; row < at_row; ++row) {
     around.below = around.below || is_face(at_column, row);
-    around.hole = around.hole || is_hole(grids.cell(grid, at_column, row));
+    around.hole = around.hole || grids.cell(grid, at_column, row).is_hole();
   }
   for (std::int32_t c = 0; c < at_column; ++c) around.left = around.left || is_face(c, at_row);
   for (std::int32_t c = at_column + 1; c < grid.columns; ++c) {

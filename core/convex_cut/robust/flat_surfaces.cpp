@@ -20,7 +20,6 @@ constexpr float kMostBeamM = 0.8F;
 constexpr float kBeamHeightM = 0.7F;
 constexpr float kTableM = 0.2F;           // above the floor
 constexpr float kMostlyOver = 0.7F;       // of its extent
-constexpr std::uint16_t kPassed = 2;      // one ray alone may be a ghost's
 constexpr float kMostOpenRing = 0.25F;    // share of the ring that may be passed
 constexpr float kMostOpenInside = 0.40F;  // and of the part itself
 constexpr float kLevel = 0.97F;           // |z| of a normal

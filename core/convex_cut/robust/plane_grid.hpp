@@ -25,6 +25,8 @@ inline constexpr float kInFrontM = 0.05F;  // a ray that starts nearer to a plan
 inline constexpr std::int32_t kFlatReach = 6;
 inline constexpr std::int32_t kWallReach = 1;
 
+inline constexpr std::uint16_t kPassed = 2;  // rays; one alone may be a ghost's
+
 struct Cell {
   std::uint16_t seen = 0;      // surfels of the plane
   std::uint16_t passed = 0;    // rays that end well behind the plane
@@ -39,6 +41,8 @@ struct Cell {
   bool enclosed = false;  // that above and below: the back of a shelf
   bool visited = false;
 
+  // Whether rays go through the plane here.
+  [[nodiscard]] bool is_hole() const noexcept { return seen == 0 && passed >= kPassed; }
   [[nodiscard]] float mean_m() const noexcept { return height_sum_m / static_cast<float>(points); }
 };
 

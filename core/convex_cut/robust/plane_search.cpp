@@ -231,6 +231,15 @@ struct Middle {
 
 }  // namespace
 
+const Plane* largest_floor(const Model& model) noexcept {
+  const Plane* floor = nullptr;
+  for (const Plane& plane : model.planes) {
+    if (plane.normal.z() < kNearlyHorizontal) continue;
+    if (floor == nullptr || plane.surfels > floor->surfels) floor = &plane;
+  }
+  return floor;
+}
+
 PlaneSearch::PlaneSearch(std::size_t max_surfels)
     : left_(max_surfels), near_(max_surfels), sampled_(2 * kTested) {
   agree_.resize(max_surfels / 64 + 1);
@@ -268,11 +277,7 @@ void PlaneSearch::run(Model& model, const Vec3f& origin) noexcept {
 // Large walls that lean a little against the floor were fitted through what hangs before or behind
 // them: by what lies near them, but upright.
 void PlaneSearch::square_walls(Model& model) noexcept {
-  const Plane* floor = nullptr;
-  for (const Plane& plane : model.planes) {
-    if (plane.normal.z() < kNearlyHorizontal) continue;
-    if (floor == nullptr || plane.surfels > floor->surfels) floor = &plane;
-  }
+  const Plane* floor = largest_floor(model);
   if (floor == nullptr) return;
   const Vec3f up = floor->normal;
   for (std::size_t k = 0; k < model.planes.size(); ++k) {

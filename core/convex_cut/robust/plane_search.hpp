@@ -18,6 +18,9 @@ namespace convexcut::robust {
 // Fits by surfels have to rest on that many: about half a square metre.
 inline constexpr std::uint32_t kLeastSurfels = 12;
 
+// Of the planes that are level and face upwards, the one of most surfels; null without any.
+[[nodiscard]] const Plane* largest_floor(const Model& model) noexcept;
+
 class PlaneSearch {
  public:
   static constexpr std::size_t kMostPlanes = 48;

@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::size_t kMostColumns = 1U << 14U;
 constexpr std::size_t kMostSegments = 2'048;
-constexpr std::int32_t kGap = 2;      // columns within a run that may be missing
-constexpr std::uint16_t kPassed = 2;  // one ray alone may be a ghost's
+constexpr std::int32_t kGap = 2;  // columns within a run that may be missing
 constexpr float kToCeilingM = 0.35F;
 constexpr float kWidestScreenM = 2.5F;
 constexpr std::int32_t kLeastPassed = 3;  // rows, beside a screen
