@@ -5,12 +5,40 @@
 
 namespace convexcut::daemon {
 
-void EffortPolicy::observe(Duration used, Duration budget) noexcept {
+namespace {
+
+// On the average of the revolutions. At full effort, labels wait for what is learnt.
+[[nodiscard]] Duration busy(const EffortPolicy::Pace& pace, Effort effort) noexcept {
+  return pace.used + pace.learning / learning_stride(effort);
+}
+
+// Without a product that could overflow: some times are as long as they may be.
+[[nodiscard]] bool is_calm_share(Duration used, Duration of) noexcept {
+  return used < of / 100 * EffortPolicy::kCalmPercent;
+}
+
+[[nodiscard]] Effort one_more(Effort effort) noexcept {
+  return effort == Effort::full ? effort
+                                : static_cast<Effort>(static_cast<std::uint8_t>(effort) - 1);
+}
+
+}  // namespace
+
+bool EffortPolicy::is_overrun(const Pace& pace) const noexcept {
+  if (pace.used > pace.budget) return true;
+  return effort_ != Effort::full && busy(pace, effort_) > pace.period;
+}
+
+bool EffortPolicy::is_calm(const Pace& pace) const noexcept {
+  const Effort more = one_more(effort_);
+  const Duration until_labels = more == Effort::full ? pace.used + pace.learning : pace.used;
+  return is_calm_share(until_labels, pace.budget) && is_calm_share(busy(pace, more), pace.period);
+}
+
+void EffortPolicy::observe(const Pace& pace) noexcept {
   ++since_restored_;
-  const bool overrun = used > budget;
-  const bool calm = used * 100 < budget * kCalmPercent;
-  overruns_ = overrun ? overruns_ + 1 : 0;
-  calm_ = calm ? calm_ + 1 : 0;
+  overruns_ = is_overrun(pace) ? overruns_ + 1 : 0;
+  calm_ = is_calm(pace) ? calm_ + 1 : 0;
   if (overruns_ >= kOverruns) {
     reduce();
   } else if (calm_ >= calm_wanted_) {
@@ -30,7 +58,7 @@ void EffortPolicy::reduce() noexcept {
 void EffortPolicy::restore() noexcept {
   calm_ = 0;
   if (effort_ == Effort::full) return;
-  effort_ = static_cast<Effort>(static_cast<std::uint8_t>(effort_) - 1);
+  effort_ = one_more(effort_);
   restored_ = true;
   since_restored_ = 0;
 }

@@ -10,8 +10,9 @@ namespace convexcut::daemon {
 
 // Decides how much is computed for the next scan from how long the last ones took: one step less
 // after kOverruns scans in a row that took longer than they had, one step more after a calm time in
-// which they took less than kCalmPercent of it. When a step back up turns out to be too much, the
-// next is tried after twice the calm time. Design note: docs/design/realtime.md.
+// which one step more would have taken less than kCalmPercent of it. When a step back up turns out
+// to be too much, the next is tried after twice the calm time. Design note:
+// docs/design/realtime.md.
 //
 // Pure: reads no clock, and the same observations give the same decisions. One thread. RT.
 class EffortPolicy {
@@ -21,12 +22,20 @@ class EffortPolicy {
   static constexpr std::uint32_t kShortestCalm = 20;  // scans: 2 s
   static constexpr std::uint32_t kLongestCalm = 640;  // 64 s
 
-  // A scan took `used` at the present effort and had `budget` (> 0).
-  void observe(Duration used, Duration budget) noexcept;
+  // A scan at the present effort.
+  struct Pace {
+    Duration used;                      // until its labels were there
+    Duration budget;                    // > 0: what it had for that
+    Duration learning{0};               // after its labels, of those that are learnt from
+    Duration period = Duration::max();  // > 0: for all of it
+  };
+  void observe(const Pace& pace) noexcept;
 
   [[nodiscard]] Effort effort() const noexcept { return effort_; }
 
  private:
+  [[nodiscard]] bool is_overrun(const Pace& pace) const noexcept;
+  [[nodiscard]] bool is_calm(const Pace& pace) const noexcept;
   void reduce() noexcept;
   void restore() noexcept;
 

@@ -141,6 +141,7 @@ HostTime Worker::serve_instant(HostTime now) noexcept {
     const HostTime last_firing = slot->scan.last_firing;
     if (locked) slot->due = clock_.steady_at(last_firing + options_.latency);
     results_.commit();
+    learn();
     grid_.advance_with_scan(last_firing, pipeline_.scan_period());
   } else if (now < give_up()) {
     return now + kLookAgain;
@@ -180,6 +181,13 @@ bool Worker::hand_over(HostTime now, Result& slot) noexcept {
   return true;
 }
 
+void Worker::learn() noexcept {
+  const auto begun = Clock::Steady::now();
+  if (!pipeline_.learn()) return;
+  learning_ = Clock::Steady::now() - begun;
+  if (report_ != nullptr) report_->stages.record(Stage::learn, learning_);
+}
+
 void Worker::report(Duration levelling, Duration cutting) noexcept {
   if (report_ == nullptr) return;
   report_->stages.record(Stage::level, levelling);
@@ -206,7 +214,10 @@ void Worker::report(Duration levelling, Duration cutting) noexcept {
 // would not have helped.
 void Worker::adapt_effort(Duration used, HostTime begun, HostTime last_firing) noexcept {
   const Duration until_due = last_firing + options_.latency - begun;
-  effort_.observe(used, std::max(until_due, options_.latency / 2));
+  effort_.observe({.used = used,
+                   .budget = std::max(until_due, options_.latency / 2),
+                   .learning = learning_,
+                   .period = options_.period});
   pipeline_.set_effort(effort_.effort());
 }
 
@@ -229,6 +240,7 @@ unsigned Worker::hand_over_all(HostTime now) noexcept {
     if (clock_.paced()) slot->due = clock_.steady_at(whole_at(slot->scan, now) + options_.latency);
     counters_.dropped_scans.add(pipeline_.scans_dropped() - counters_.dropped_scans.value());
     results_.commit();
+    learn();
     ++count;
   }
 }

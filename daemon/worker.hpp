@@ -79,6 +79,8 @@ class Worker {
   [[nodiscard]] HostTime give_up() const noexcept;
   // Hands over the oldest scan if it is ready.
   [[nodiscard]] bool hand_over(HostTime now, Result& slot) noexcept;
+  // Once a result is on its way.
+  void learn() noexcept;
   void adapt_effort(Duration used, HostTime begun, HostTime last_firing) noexcept;
   void hand_over_empty(Result& slot) noexcept;
   void report(Duration levelling, Duration cutting) noexcept;
@@ -98,6 +100,7 @@ class Worker {
   LatencyHistogram compute_time_;
   WorkerReport* report_ = nullptr;  // none: nobody asked
   std::uint64_t next_index_ = 0;
+  Duration learning_{0};  // took the last scan that was learnt from after its labels
 
   HostTime newest_arrival_{};  // of a lidar packet
   bool silent_ = true;         // the scan at hand was closed because no packet comes

@@ -41,6 +41,22 @@ class Robust : public Method {
   bool told_;
 };
 
+// Labels that do not wait for what their revolution shows; learnt from is one in `stride` of them.
+class RobustAtOnce : public Method {
+ public:
+  explicit RobustAtOnce(unsigned stride) : stride_(stride) {}
+  void label(const CloudView& cloud, const Vec3& /*position_m*/, std::span<Label> labels) override {
+    require_ok(cut_.label_at_once(cloud, labels));
+    const bool is_time = ++revolutions_ % stride_ == 0;
+    cut_.learn(is_time ? RobustCut::Learning::now : RobustCut::Learning::later);
+  }
+
+ private:
+  RobustCut cut_{{}, kMostPoints};
+  unsigned stride_;
+  unsigned revolutions_ = 0;
+};
+
 class Function : public Method {
  public:
   using Call = void (*)(const CloudView&, std::span<Label>);
@@ -57,6 +73,11 @@ class Function : public Method {
                                  const RobustParameters& parameters) {
   return {std::move(name), std::move(description),
           [parameters] { return std::make_unique<Robust>(parameters); }};
+}
+
+[[nodiscard]] NamedMethod at_once(std::string name, std::string description, unsigned stride) {
+  return {std::move(name), std::move(description),
+          [stride] { return std::make_unique<RobustAtOnce>(stride); }};
 }
 
 [[nodiscard]] NamedMethod baseline(std::string name, std::string description, Function::Call call) {
@@ -101,7 +122,10 @@ std::vector<NamedMethod> ablations() {
       without("no mirror test", "mirror images are kept", &RobustParameters::mirrors),
       without("no memory of verdicts", "each revolution decides alone", &RobustParameters::steady),
       without("no upright correction", "gravity is believed", &RobustParameters::upright),
-      without("no alignment", "each revolution's pose is believed", &RobustParameters::align)};
+      without("no alignment", "each revolution's pose is believed", &RobustParameters::align),
+      at_once("labels at once", "by the revolutions before; learnt from after", 1),
+      at_once("learning of 1 in 2", "labels at once, every second revolution is learnt from", 2),
+      at_once("learning of 1 in 4", "labels at once, every fourth", 4)};
 }
 
 NamedMethod robust_with_positions() {

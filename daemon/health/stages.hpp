@@ -18,6 +18,7 @@ enum class Stage : std::uint8_t {
   arrival_to_worker,  // a datagram's kernel stamp → its batch is taken out; the worker
   level,              // a scan is levelled; the worker
   cut,                // … and cut into structure and the rest; the worker
+  learn,              // what its labels did not wait for (robust, reduced effort); the worker
   publish,            // the DDS write of the structure; the publisher
   latency,            // a scan's last firing → that write returned; the publisher
   jitter,             // how far from its due time a write returned; the publisher
@@ -28,12 +29,13 @@ struct StageInfo {
   std::string_view name;
   std::string_view help;
 };
-inline constexpr std::array<StageInfo, 7> kStages{{
+inline constexpr std::array<StageInfo, 8> kStages{{
     {Stage::arrival_to_ring, "arrival_to_ring", "From a packet's arrival to its place in the ring"},
     {Stage::arrival_to_worker, "arrival_to_worker",
      "From a packet's arrival to the worker, which looks ten times a second"},
     {Stage::level, "level", "Levelling of a scan"},
     {Stage::cut, "cut", "Convex Cut of a scan"},
+    {Stage::learn, "learn", "What is learnt from a scan after its labels are handed over"},
     {Stage::publish, "publish", "DDS write of the structure"},
     {Stage::latency, "latency", "From a scan's last firing to the end of its DDS write"},
     {Stage::jitter, "jitter", "How far the latency was from worker.latency_ms"},

@@ -7,13 +7,13 @@ namespace convexcut::daemon {
 
 // How much is computed for a scan, in the order in which it is reduced when time is short. Fewer
 // planes come first: every point keeps its place and label, only structure seen by the left-out
-// planes alone is missed. Fewer points come last. The robust method has no planes: its window
-// becomes shorter instead.
+// planes alone is missed. Fewer points come last. The robust method has no slicing planes: its
+// labels no longer wait until it has learnt from their revolution, then it learns more rarely.
 enum class Effort : std::uint8_t {
-  full,
-  half_planes,     // every second slicing plane
-  quarter_planes,  // every fourth
-  half_points,     // every fourth plane, every second firing
+  full,            // robust: labels by a revolution and those before
+  half_planes,     // every second slicing plane; robust: by those before, it is learnt from after
+  quarter_planes,  // every fourth; robust: every second revolution is learnt from
+  half_points,     // every fourth plane or revolution, every second firing
 };
 
 inline constexpr Effort kLeastEffort = Effort::half_points;
@@ -22,9 +22,10 @@ inline constexpr Effort kLeastEffort = Effort::half_points;
   if (effort == Effort::full) return 1;
   return effort == Effort::half_planes ? 2 : 4;
 }
-// Of the configured number of revolutions.
-[[nodiscard]] constexpr std::uint32_t window_divisor(Effort effort) noexcept {
-  return plane_stride(effort);
+// Revolutions for one that is learnt from.
+[[nodiscard]] constexpr std::uint32_t learning_stride(Effort effort) noexcept {
+  if (effort == Effort::quarter_planes) return 2;
+  return effort == Effort::half_points ? 4 : 1;
 }
 [[nodiscard]] constexpr std::uint32_t firing_stride(Effort effort) noexcept {
   return effort == Effort::half_points ? 2 : 1;

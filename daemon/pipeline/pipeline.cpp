@@ -143,13 +143,21 @@ void Pipeline::cut(LevelledScan& scan) noexcept {
   // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
   // ever, every point would keep the label `other`.
   if (robust_) {
-    const std::uint32_t window = options_.robust.window / window_divisor(effort_);
-    static_cast<void>(robust_->label(scan.cloud(), scan.label, scan.position_m, window));
+    static_cast<void>(effort_ == Effort::full
+                          ? robust_->label(scan.cloud(), scan.label, scan.position_m)
+                          : robust_->label_at_once(scan.cloud(), scan.label, scan.position_m));
   } else {
     static_cast<void>(engine_->label(scan.cloud(), scan.label, plane_stride(effort_)));
   }
   scan.structure_points = 0;
   for (const Label label : scan.label) scan.structure_points += label == Label::structure ? 1U : 0U;
+}
+
+bool Pipeline::learn() noexcept {
+  if (!robust_) return false;
+  const bool is_time = ++unlearnt_ >= learning_stride(effort_);
+  if (is_time) unlearnt_ = 0;
+  return robust_->learn(is_time ? RobustCut::Learning::now : RobustCut::Learning::later);
 }
 
 std::size_t Pipeline::drop_superseded(HostTime now, HostTime oldest_end) noexcept {

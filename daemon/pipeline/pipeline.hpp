@@ -103,6 +103,9 @@ class Pipeline {
   [[nodiscard]] bool level_next(HostTime now, LevelledScan& out) noexcept;
   // Labels what level_next() gave, by the chosen method.
   void cut(LevelledScan& scan) noexcept;
+  // After cut(), once its labels are on their way: what they did not wait for. Whether there was
+  // anything to learn.
+  bool learn() noexcept;
   // Both.
   [[nodiscard]] bool next_scan(HostTime now, LevelledScan& out) noexcept {
     if (!level_next(now, out)) return false;
@@ -188,6 +191,7 @@ class Pipeline {
   std::size_t waiting_count_ = 0;
 
   Effort effort_ = Effort::full;
+  std::uint32_t unlearnt_ = 0;  // scans since one was learnt from
   PpsState pps_ = PpsState::unknown;
   bool imu_ended_ = false;
   bool encoder_ended_ = false;

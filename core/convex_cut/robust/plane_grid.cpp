@@ -12,6 +12,8 @@
 namespace convexcut::robust {
 namespace {
 
+constexpr std::int32_t kUnknownCells = 16;  // 4 m: more than a step of a lidar that turns adds
+
 constexpr std::size_t kMostCells = 1U << 18U;
 constexpr std::size_t kMostExtents = 1U << 14U;
 constexpr std::int32_t kMargin = 2;  // cells around what was seen
@@ -221,6 +223,27 @@ bool PlaneGrids::is_structure(std::size_t plane, const Vec3f& p,
     }
   }
   return false;
+}
+
+bool PlaneGrids::goes_on_to(std::size_t plane, const Vec3f& p) const noexcept {
+  const PlaneGrid& g = grids_[plane];
+  const std::int32_t column = g.column_of(p);
+  const std::int32_t row = g.row_of(p);
+  if (g.holds(column, row)) {
+    const Cell& at = cell(g, column, row);
+    if (at.enclosed || at.passed > 0) return false;
+  }
+  const auto meets_structure = [&](std::int32_t columns, std::int32_t rows) {
+    for (std::int32_t i = 1; i <= kUnknownCells; ++i) {
+      if (!g.holds(column + i * columns, row + i * rows)) continue;
+      const Cell& at = cell(g, column + i * columns, row + i * rows);
+      if (at.structure) return true;
+      if (at.seen > 0 || at.passed > 0) return false;
+    }
+    return false;
+  };
+  return meets_structure(1, 0) || meets_structure(-1, 0) || meets_structure(0, 1) ||
+         meets_structure(0, -1);
 }
 
 void PlaneGrids::mark_reach(const Model& model) noexcept {

@@ -128,6 +128,9 @@ class PlaneGrids {
   [[nodiscard]] bool is_within_reach(std::size_t plane, const Vec3f& p) const noexcept {
     return (reach_at(plane, p) & kWithinReach) != 0;
   }
+  // Whether the plane's structure goes on to p, in its row or its column, over some cells of which
+  // nothing is known yet.
+  [[nodiscard]] bool goes_on_to(std::size_t plane, const Vec3f& p) const noexcept;
   // Whether anything of the plane was seen in the cell at p.
   [[nodiscard]] bool is_seen(std::size_t plane, const Vec3f& p) const noexcept {
     const PlaneGrid& g = grids_[plane];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "core/convex_cut/cloud_check.hpp"
 #include "core/convex_cut/robust/backs.hpp"
@@ -100,23 +101,52 @@ void RobustCut::forget() noexcept {
   pose_ = {};
   given_position_m_.reset();
   structure_share_ = 0.0F;
+  to_learn_ = false;
 }
 
 CutStatus RobustCut::label(const CloudView& cloud, std::span<Label> labels,
                            const std::optional<Vec3>& position_m, std::uint32_t window) noexcept {
-  if (cloud.size() > max_points()) return CutStatus::too_many_points;
-  const CloudCheck check = check_cloud(cloud, labels.size());
-  if (check.status != CutStatus::ok) return check.status;
+  const CutStatus status = check(cloud, labels);
+  if (status != CutStatus::ok) return status;
 
   place(cloud, position_m);
   fill_voxels(cloud);
+  to_learn_ = true;
+  static_cast<void>(learn(Learning::now, window));
+  write_labels(cloud, labels);
+  return status;
+}
+
+CutStatus RobustCut::label_at_once(const CloudView& cloud, std::span<Label> labels,
+                                   const std::optional<Vec3>& position_m) noexcept {
+  const CutStatus status = check(cloud, labels);
+  if (status != CutStatus::ok) return status;
+
+  place(cloud, position_m);
+  fill_voxels(cloud);
+  to_learn_ = true;
+  if (window_.revolutions() == 0) {
+    static_cast<void>(learn());
+  } else {
+    window_.look_up(revolution_);
+  }
+  write_labels(cloud, labels);
+  return status;
+}
+
+bool RobustCut::learn(Learning learning, std::uint32_t window) noexcept {
+  if (!std::exchange(to_learn_, false)) return false;
+  const bool is_remembered =
+      learning == Learning::later && window_.add_in_place(revolution_, pose_.position, window);
+  if (is_remembered) return false;
   window_.add(revolution_, pose_.position, window);
   analyse();
-  take_near();
+  return true;
+}
 
-  label_points(cloud, labels);
-  if (parameters_.steady && judge_voxels()) steady(cloud, labels);
-  return CutStatus::ok;
+CutStatus RobustCut::check(const CloudView& cloud, std::span<Label> labels) const noexcept {
+  if (cloud.size() > max_points()) return CutStatus::too_many_points;
+  return check_cloud(cloud, labels.size()).status;
 }
 
 // As the last revolution went on; a step that is given is believed.
@@ -233,16 +263,18 @@ void RobustCut::take_near() noexcept {
     }
     robust::find_planes(centres.columns(), model_.planes, accepted, reach_m, planes);
     for (std::size_t i = 0; i < count; ++i) {
-      near_[begin + i] = near_of(window_.merged(begin + i), planes[i]);
+      near_[begin + i] =
+          near_of(window_.merged(begin + i), {centres.x[i], centres.y[i], centres.z[i]}, planes[i]);
     }
   }
 }
 
 // in_window: the voxel, see Window::merged(). planes: within its reach.
-RobustCut::Near RobustCut::near_of(std::int32_t in_window, std::uint64_t planes) const noexcept {
+RobustCut::Near RobustCut::near_of(std::int32_t in_window, const Vec3f& centre,
+                                   std::uint64_t planes) const noexcept {
   Near near;
   const auto merged = static_cast<std::size_t>(in_window);
-  const bool known = merged < model_.surfels.size();
+  const bool known = is_known(in_window);
   if (known && model_.surfels[merged].mirrored) return near;
   const auto is_marked = [&](std::span<const std::uint8_t> marks) {
     return known && !marks.empty() && marks[merged] != 0;
@@ -251,6 +283,8 @@ RobustCut::Near RobustCut::near_of(std::int32_t in_window, std::uint64_t planes)
   for (; planes != 0 && near.count < Near::kMost; planes &= planes - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(planes));
     if (known && is_fixture(model_.surfels[merged], k)) continue;
+    const bool goes_on = !known && grids_.goes_on_to(k, centre);
+    near.goes_on |= static_cast<std::uint8_t>((goes_on ? 1U : 0U) << near.count);
     near.planes.at(near.count++) = static_cast<std::uint8_t>(k);
   }
   if (known) {
@@ -276,7 +310,7 @@ float RobustCut::mean_height(const Surfel& surfel, std::size_t plane) const noex
     Vec3f at = surfel.mean;
     at[axis] += step;
     const std::int32_t voxel = window_.map().find(robust::key_of(robust::place_of(at)));
-    if (voxel == VoxelMap::kNone) continue;
+    if (!is_known(voxel)) continue;
     const Surfel& other = model_.surfels[static_cast<std::size_t>(voxel)];
     if (other.plane == static_cast<std::int32_t>(plane)) add(other);
   }
@@ -299,12 +333,18 @@ bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept 
   for (std::size_t i = 0; i < near.count; ++i) {
     const auto k = static_cast<std::size_t>(near.planes.at(i));
     if (std::abs(model_.planes[k].height_of(p)) <= parameters_.band_m &&
-        grids_.is_within_reach(k, p)) {
+        ((near.goes_on >> i & 1U) != 0 || grids_.is_within_reach(k, p))) {
       return true;
     }
   }
   return near.unexplained || (near.recess != robust::Recesses::kNone &&
                               recesses_.holds(model_, near.recess, p, parameters_.band_m));
+}
+
+void RobustCut::write_labels(const CloudView& cloud, std::span<Label> labels) noexcept {
+  take_near();
+  label_points(cloud, labels);
+  if (parameters_.steady && judge_voxels()) steady(cloud, labels);
 }
 
 void RobustCut::label_points(const CloudView& cloud, std::span<Label> labels) noexcept {
@@ -357,8 +397,9 @@ void RobustCut::steady(const CloudView& cloud, std::span<Label> labels) const no
 
 // Of the window's piece of surface in a voxel of the revolution.
 bool RobustCut::is_on_surface(const Vec3f& p, std::size_t voxel) const noexcept {
-  const auto merged = static_cast<std::size_t>(window_.merged(voxel));
-  const Surfel& surfel = model_.surfels[merged];
+  const std::int32_t merged = window_.merged(voxel);
+  if (!is_known(merged)) return false;
+  const Surfel& surfel = model_.surfels[static_cast<std::size_t>(merged)];
   return surfel.shape == robust::Shape::plane && !surfel.mirrored &&
          std::abs(surfel.direction.dot(p - surfel.mean)) <= parameters_.band_m;
 }

@@ -53,12 +53,27 @@ class RobustCut {
                                 const std::optional<Vec3>& position_m = std::nullopt,
                                 std::uint32_t window = kMaxRobustWindow) noexcept;
 
+  // The same in two steps, for whoever needs the labels sooner than the revolution can be learnt
+  // from: label_at_once() by what the revolutions before it have shown, and, once the labels are
+  // handed on, learn(). Where nothing was known, accepted planes go on. A revolution that is the
+  // first, or does not fit those before, is learnt from at once. One that is followed by another
+  // without learn() is not remembered. RT, both.
+  [[nodiscard]] CutStatus label_at_once(
+      const CloudView& cloud, std::span<Label> labels,
+      const std::optional<Vec3>& position_m = std::nullopt) noexcept;
+  enum class Learning : std::uint8_t {
+    now,
+    later,  // the revolution is remembered only, as far as there is room: walls stay as known
+  };
+  // Whether it was learnt from: not what was only remembered, nor what had been learnt from before.
+  bool learn(Learning learning = Learning::now, std::uint32_t window = kMaxRobustWindow) noexcept;
+
   // As if newly made: after a gap in time, or a step of the clock.
   void forget() noexcept;
 
   [[nodiscard]] const RobustParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] std::size_t max_points() const noexcept { return max_points_; }
-  // Of the revolution labelled last.
+  // Of the revolution learnt from last.
   [[nodiscard]] const robust::Model& model() const noexcept { return model_; }
 
  private:
@@ -67,23 +82,31 @@ class RobustCut {
     static constexpr std::size_t kMost = 4;
     std::array<std::uint8_t, kMost> planes{};
     std::uint8_t count = 0;
-    bool unexplained = false;                               // by planes, but structure
+    std::uint8_t goes_on = 0;  // bit i: planes[i] reaches to here, as far as nothing is known
+    bool unexplained = false;  // by planes, but structure
     robust::Recesses::Id recess = robust::Recesses::kNone;  // whose side it is
     robust::Verdict verdict = robust::Verdict::as_now;
     std::int32_t structure = 0;  // points
   };
 
+  [[nodiscard]] CutStatus check(const CloudView& cloud, std::span<Label> labels) const noexcept;
   [[nodiscard]] robust::RigPose predicted(const std::optional<Vec3>& position_m) const noexcept;
   void place(const CloudView& cloud, const std::optional<Vec3>& position_m) noexcept;
   void fill_voxels(const CloudView& cloud) noexcept;
   void analyse() noexcept;
   void take_surfels() noexcept;
   void find_structure() noexcept;
+  // Whether the model has a surfel of the window's voxel: not of those it was not yet learnt from.
+  [[nodiscard]] bool is_known(std::int32_t in_window) const noexcept {
+    return static_cast<std::size_t>(in_window) < model_.surfels.size();
+  }
   void take_near() noexcept;
-  [[nodiscard]] Near near_of(std::int32_t in_window, std::uint64_t planes) const noexcept;
+  [[nodiscard]] Near near_of(std::int32_t in_window, const Vec3f& centre,
+                             std::uint64_t planes) const noexcept;
   [[nodiscard]] float mean_height(const robust::Surfel& surfel, std::size_t plane) const noexcept;
   [[nodiscard]] bool is_fixture(const robust::Surfel& surfel, std::size_t plane) const noexcept;
   [[nodiscard]] bool is_structure(const Vec3f& p, std::int32_t voxel) const noexcept;
+  void write_labels(const CloudView& cloud, std::span<Label> labels) noexcept;
   void label_points(const CloudView& cloud, std::span<Label> labels) noexcept;
   [[nodiscard]] bool judge_voxels() noexcept;
   void steady(const CloudView& cloud, std::span<Label> labels) const noexcept;
@@ -111,6 +134,7 @@ class RobustCut {
   std::optional<Vec3> given_position_m_;  // of the last revolution
   std::size_t points_ = 0;                // of the revolution at hand
   float structure_share_ = 0.0F;          // of the last revolution's points
+  bool to_learn_ = false;                 // from the revolution at hand
 };
 
 }  // namespace convexcut

@@ -10,14 +10,14 @@
 namespace convexcut::robust {
 namespace {
 
-constexpr std::uint32_t kTurns = 4;         // revolutions
+constexpr std::uint32_t kTurns = 4;
 constexpr std::int32_t kHardlyChanged = 3;  // a third of the points; in a full window, four turns'
 
 // Where most of a voxel's points are as they were, its shape hardly changes from one revolution to
 // the next: such voxels take turns, by their place, so that no revolution has all of them.
-[[nodiscard]] bool is_due(const Voxel& voxel, std::uint32_t revolution) noexcept {
+[[nodiscard]] bool is_due(const Voxel& voxel, std::uint32_t turn) noexcept {
   const VoxelKey place = voxel.key + (voxel.key >> 21U) + (voxel.key >> 42U);
-  return kHardlyChanged * voxel.changed > voxel.moments.count || (place + revolution) % kTurns == 0;
+  return kHardlyChanged * voxel.changed > voxel.moments.count || (place + turn) % kTurns == 0;
 }
 
 }  // namespace
@@ -33,18 +33,41 @@ void Window::clear() noexcept {
   map_.clear();
   oldest_ = newest_ = 0;
   used_ = 0;
+  shapes_taken_ = 0;
+  has_empty_ = false;
 }
 
 void Window::add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t keep) noexcept {
-  keep = std::clamp<std::uint32_t>(keep, 1U, static_cast<std::uint32_t>(slots_.size()));
-  const auto is_full = [&] {
-    return newest_ - oldest_ >= keep || used_ + revolution.size() > entries_.size() ||
-           map_.size() + revolution.size() > map_.capacity();
-  };
-  while (newest_ != oldest_ && is_full()) {
+  if (has_empty_) remove_empty();
+  while (newest_ != oldest_ && is_full(revolution, keep)) {
     forget_oldest();
-    map_.remove_empty();
+    remove_empty();
   }
+  merge(revolution, origin);
+  take_shapes();
+}
+
+bool Window::add_in_place(const VoxelMap& revolution, const Vec3f& origin,
+                          std::uint32_t keep) noexcept {
+  if (map_.size() + revolution.size() > map_.capacity()) return false;
+  while (newest_ != oldest_ && is_full(revolution, keep)) forget_oldest();
+  merge(revolution, origin);
+  return true;
+}
+
+void Window::look_up(const VoxelMap& revolution) noexcept {
+  for (std::size_t i = 0; i < revolution.size(); ++i) {
+    merged_[i] = map_.find(revolution.voxels()[i].key);
+  }
+}
+
+bool Window::is_full(const VoxelMap& revolution, std::uint32_t keep) const noexcept {
+  keep = std::clamp<std::uint32_t>(keep, 1U, static_cast<std::uint32_t>(slots_.size()));
+  return newest_ - oldest_ >= keep || used_ + revolution.size() > entries_.size() ||
+         map_.size() + revolution.size() > map_.capacity();
+}
+
+void Window::merge(const VoxelMap& revolution, const Vec3f& origin) noexcept {
   const Slot& last = slots_[(newest_ + slots_.size() - 1) % slots_.size()];
   const std::size_t first = (last.first + last.count) % entries_.size();
   newest_slot_ = newest_ % slots_.size();
@@ -62,7 +85,6 @@ void Window::add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t 
   }
   used_ += slot.count;
   ++newest_;
-  take_shapes();
 }
 
 void Window::forget_oldest() noexcept {
@@ -74,12 +96,19 @@ void Window::forget_oldest() noexcept {
     map_.voxels()[static_cast<std::size_t>(index)].change(moments, -1);
   }
   used_ -= slot.count;
+  has_empty_ = true;
+}
+
+void Window::remove_empty() noexcept {
+  map_.remove_empty();
+  has_empty_ = false;
 }
 
 void Window::take_shapes() noexcept {
   std::array<std::uint32_t, kShapesAtOnce> changed;
   std::size_t count = 0;
   const bool take_turns = map_.size() > kLargeMap;
+  ++shapes_taken_;
   for (std::size_t i = 0; i < map_.size(); ++i) {
     Voxel& voxel = map_.voxels()[i];
     if (voxel.changed == 0) continue;
@@ -87,7 +116,7 @@ void Window::take_shapes() noexcept {
       voxel.shape = Shape::other;
       continue;
     }
-    if (take_turns && !is_due(voxel, newest_)) continue;
+    if (take_turns && !is_due(voxel, shapes_taken_)) continue;
     voxel.changed = 0;
     changed[count++] = static_cast<std::uint32_t>(i);
     if (count < kShapesAtOnce) continue;

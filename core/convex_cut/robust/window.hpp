@@ -26,6 +26,12 @@ class Window {
   void clear() noexcept;
   // Adds a revolution that was seen from `origin`, and forgets those beyond the newest `keep`.
   void add(const VoxelMap& revolution, const Vec3f& origin, std::uint32_t keep) noexcept;
+  // The same, but the map's voxels stay where they are, also without points, and their shapes as
+  // they were. False when there is no room for that: then nothing is done.
+  [[nodiscard]] bool add_in_place(const VoxelMap& revolution, const Vec3f& origin,
+                                  std::uint32_t keep) noexcept;
+  // Instead, for merged() and judge(): a revolution that is not added yet.
+  void look_up(const VoxelMap& revolution) noexcept;
 
   [[nodiscard]] const VoxelMap& map() const noexcept { return map_; }
   [[nodiscard]] std::uint32_t revolutions() const noexcept { return newest_ - oldest_; }
@@ -37,7 +43,8 @@ class Window {
   }
   [[nodiscard]] const Vec3f& origin() const noexcept { return slots_[newest_slot_].origin; }
 
-  // The map's index of a voxel of the newest revolution; VoxelMap::kNone where it had no room.
+  // The map's index of a voxel of the revolution that was added or looked up last; VoxelMap::kNone
+  // where it had no room, or is not known.
   [[nodiscard]] std::int32_t merged(std::size_t voxel_of_revolution) const noexcept {
     return merged_[voxel_of_revolution];
   }
@@ -58,7 +65,10 @@ class Window {
     std::size_t first = 0, count = 0;  // of its entries
     Vec3f origin = Vec3f::Zero();
   };
+  [[nodiscard]] bool is_full(const VoxelMap& revolution, std::uint32_t keep) const noexcept;
   void forget_oldest() noexcept;
+  void remove_empty() noexcept;
+  void merge(const VoxelMap& revolution, const Vec3f& origin) noexcept;
   void take_shapes() noexcept;
   [[nodiscard]] Entry& entry(const Slot& slot, std::size_t i) noexcept {
     const std::size_t at = slot.first + i;
@@ -72,7 +82,9 @@ class Window {
   std::uint32_t newest_ = 0;
   std::size_t newest_slot_ = 0;
   VoxelMap map_;
-  Workspace<std::int32_t> merged_;  // by voxel of the newest revolution
+  bool has_empty_ = false;          // voxels without points, perhaps
+  Workspace<std::int32_t> merged_;  // by voxel of a revolution
+  std::uint32_t shapes_taken_ = 0;  // times
 };
 
 }  // namespace convexcut::robust

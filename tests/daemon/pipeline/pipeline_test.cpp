@@ -5,6 +5,7 @@
 #include "daemon/pipeline/pipeline.hpp"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -284,6 +285,36 @@ TEST(Pipeline, AnglesThatAreNotUsedChangeNothing) {
   const auto scans = player.take(kStart);
   ASSERT_EQ(scans.size(), 1U);
   expect_at(scans[0], kFiring7Ring1, Vec3(7, 1, 0));
+}
+
+// The first revolution's labels have nothing else to come from than itself.
+TEST(Pipeline, WithLessEffortRobustLabelsDoNotWaitForWhatIsLearnt) {
+  PipelineOptions options = fixed_mount();
+  options.method = config::Method::robust;
+  for (const auto& [effort, expected] : {std::pair{Effort::full, 0},
+                                         {Effort::half_planes, 8},
+                                         {Effort::quarter_planes, 4},
+                                         {Effort::half_points, 2}}) {
+    Player player(options);
+    player.pipeline.set_effort(effort);
+    int scans = 0;
+    int learnt = 0;
+    for (std::int64_t packet = 0; scans < 9; ++packet) {
+      player.send_packet(packet);
+      if (!player.pipeline.next_scan(player.arrival(packet), player.scan)) continue;
+      ++scans;
+      learnt += player.pipeline.learn() ? 1 : 0;
+    }
+    EXPECT_EQ(learnt, expected) << static_cast<int>(effort);
+  }
+}
+
+TEST(Pipeline, ThePapersMethodLearnsNothing) {
+  Player player(fixed_mount());
+  player.send_packets(0, 400);
+  player.pipeline.end_of_lidar();
+  EXPECT_FALSE(player.take(player.arrival(400)).empty());
+  EXPECT_FALSE(player.pipeline.learn());
 }
 
 TEST(Pipeline, ScansThatNobodyTakesAreDroppedAndCounted) {

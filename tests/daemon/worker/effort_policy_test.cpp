@@ -3,6 +3,8 @@
 // When less, and when more again, is computed. Does not prove that less work takes less time.
 #include "daemon/effort_policy.hpp"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 namespace convexcut::daemon {
@@ -16,14 +18,14 @@ constexpr Duration kCalm = milliseconds{5};
 constexpr Duration kBusy = milliseconds{8};
 
 void observe(EffortPolicy& policy, Duration used, std::uint32_t scans) {
-  for (std::uint32_t i = 0; i < scans; ++i) policy.observe(used, kBudget);
+  for (std::uint32_t i = 0; i < scans; ++i) policy.observe({.used = used, .budget = kBudget});
 }
 
 TEST(EffortPolicy, OneOverrunChangesNothing) {
   EffortPolicy policy;
   for (int i = 0; i < 100; ++i) {
-    policy.observe(kOver, kBudget);
-    policy.observe(kBusy, kBudget);
+    policy.observe({.used = kOver, .budget = kBudget});
+    policy.observe({.used = kBusy, .budget = kBudget});
   }
   EXPECT_EQ(policy.effort(), Effort::full);
 }
@@ -72,7 +74,7 @@ TEST(EffortPolicy, ALoadThatStaysIsTriedEverMoreRarely) {
   for (int scan = 0; scan < 36'000; ++scan) {  // an hour
     const bool full = policy.effort() == Effort::full;
     late += full ? 1U : 0U;
-    policy.observe(full ? kOver : kCalm, kBudget);
+    policy.observe({.used = full ? kOver : kCalm, .budget = kBudget});
   }
   EXPECT_LT(late, 140U);  // kOverruns a try, a try in 64 s
   EXPECT_GE(late, 100U);
@@ -89,10 +91,43 @@ TEST(EffortPolicy, ALoadThatComesMuchLaterIsNoFailedStepUp) {
   EXPECT_EQ(policy.effort(), Effort::full);
 }
 
+// Labels that would wait for 20 ms of learning again are no step up, calm as they are without.
+TEST(EffortPolicy, LabelsWaitForLearningOnlyWhereThereIsTimeForBoth) {
+  for (const auto& [budget, expected] :
+       {std::pair{milliseconds{10}, Effort::half_planes}, {milliseconds{60}, Effort::full}}) {
+    EffortPolicy policy;
+    observe(policy, milliseconds{100}, EffortPolicy::kOverruns);
+    ASSERT_EQ(policy.effort(), Effort::half_planes);
+    for (std::uint32_t i = 0; i < EffortPolicy::kShortestCalm; ++i) {
+      policy.observe({.used = milliseconds{4},
+                      .budget = budget,
+                      .learning = milliseconds{20},
+                      .period = milliseconds{100}});
+    }
+    EXPECT_EQ(policy.effort(), expected);
+  }
+}
+
+// Labels are in time, but with what is learnt after each of them the next scan is not begun in
+// time.
+TEST(EffortPolicy, LearnsMoreRarelyWhatThePeriodHasNoTimeFor) {
+  EffortPolicy policy;
+  observe(policy, kOver, EffortPolicy::kOverruns);
+  ASSERT_EQ(policy.effort(), Effort::half_planes);
+  for (int i = 0; i < 10'000; ++i) {
+    policy.observe({.used = milliseconds{4},
+                    .budget = kBudget,
+                    .learning = milliseconds{97},
+                    .period = milliseconds{100}});
+    EXPECT_NE(policy.effort(), Effort::half_points);
+  }
+  EXPECT_EQ(policy.effort(), Effort::quarter_planes);
+}
+
 TEST(EffortPolicy, TheBudgetOfEachScanIsItsOwn) {
   EffortPolicy policy;
-  policy.observe(milliseconds{5}, milliseconds{4});
-  policy.observe(milliseconds{5}, milliseconds{4});
+  policy.observe({.used = milliseconds{5}, .budget = milliseconds{4}});
+  policy.observe({.used = milliseconds{5}, .budget = milliseconds{4}});
   EXPECT_EQ(policy.effort(), Effort::half_planes);
 }
 

@@ -66,6 +66,17 @@ using Sums = std::array<std::int32_t, 10>;
   return map;
 }
 
+// A block of voxels ten wide and deep that begins at x = place, with one point each.
+[[nodiscard]] VoxelMap block_at(std::int32_t place, std::int32_t voxels) {
+  VoxelMap map(static_cast<std::size_t>(voxels));
+  for (std::int32_t v = 0; v < voxels; ++v) {
+    const Lattice at{place + v % 10, v / 10 % 10, v / 100};
+    const auto index = static_cast<std::size_t>(map.find_or_add(robust::key_of(at)));
+    map.voxels()[index].moments.add_mm(1, 0, 0);
+  }
+  return map;
+}
+
 // The neighbours are those that find() finds, in the lattice's order.
 void expect_neighbourhoods_right(const VoxelMap& map) {
   for (const Voxel& voxel : map.voxels()) {
@@ -115,6 +126,57 @@ TEST(RobustWindow, EqualsTheSumOfItsRevolutionsWhereverTheRigGoes) {
   }
 }
 
+TEST(RobustWindow, VoxelsStayInPlaceUntilTheNextRevolutionIsAddedAsUsual) {
+  constexpr std::size_t kVoxels = 400;
+  std::mt19937 random(9);
+  Window usual(6, kVoxels, 20 * kVoxels);
+  Window in_place(6, kVoxels, 20 * kVoxels);
+  for (int i = 0; i < 60; ++i) {
+    const VoxelMap revolution = random_revolution(random, 2 * i, kVoxels);
+    usual.add(revolution, Vec3f::Zero(), 6);
+    if (i % 5 != 4) {
+      const std::vector<Voxel> before(in_place.map().voxels().begin(),
+                                      in_place.map().voxels().end());
+      ASSERT_TRUE(in_place.add_in_place(revolution, Vec3f::Zero(), 6));
+      for (std::size_t v = 0; v < before.size(); ++v) {
+        ASSERT_EQ(in_place.map().voxels()[v].key, before[v].key);
+        ASSERT_EQ(in_place.map().voxels()[v].direction, before[v].direction);
+      }
+      for (std::size_t v = 0; v < revolution.size(); ++v) {
+        const auto merged = static_cast<std::size_t>(in_place.merged(v));
+        ASSERT_EQ(in_place.map().voxels()[merged].key, revolution.voxels()[v].key);
+      }
+    } else {
+      in_place.add(revolution, Vec3f::Zero(), 6);
+      ASSERT_EQ(sums_of(in_place.map()), sums_of(usual.map())) << i;
+    }
+    ASSERT_EQ(in_place.revolutions(), usual.revolutions());
+  }
+}
+
+TEST(RobustWindow, AddsNothingInPlaceWhereThereIsNoRoom) {
+  constexpr std::int32_t kVoxels = 1'000;
+  Window window(6, kVoxels, 2 * kVoxels - 1);
+  ASSERT_TRUE(window.add_in_place(block_at(0, kVoxels), Vec3f::Zero(), 6));
+  EXPECT_FALSE(window.add_in_place(block_at(10, kVoxels), Vec3f::Zero(), 6));
+  EXPECT_EQ(window.revolutions(), 1U);
+  EXPECT_EQ(sums_of(window.map()), sums_of(block_at(0, kVoxels)));
+}
+
+TEST(RobustWindow, LooksUpWhatIsKnownOfARevolution) {
+  constexpr std::int32_t kVoxels = 1'000;
+  Window window(6, kVoxels, 6 * kVoxels);
+  window.add(block_at(0, kVoxels), Vec3f::Zero(), 6);
+  const VoxelMap next = block_at(3, kVoxels);
+  window.look_up(next);
+  std::size_t known = 0;
+  for (std::size_t v = 0; v < next.size(); ++v) {
+    ASSERT_EQ(window.merged(v), window.map().find(next.voxels()[v].key));
+    known += window.merged(v) != VoxelMap::kNone ? 1U : 0U;
+  }
+  EXPECT_EQ(known, 7U * kVoxels / 10);
+}
+
 TEST(RobustWindow, KeepsFewerRevolutionsThatHaveMoreVoxelsThanUsual) {
   constexpr std::int32_t kEdge = 25;  // 15,625 voxels each
   constexpr std::size_t kVoxels = kEdge * kEdge * kEdge;
@@ -140,13 +202,7 @@ TEST(RobustWindow, KeepsFewerRevolutionsOfARigThatLeavesThemBehind) {
   constexpr std::int32_t kVoxels = 1'000;
   Window window(8, kVoxels, 4 * kVoxels + 1);
   for (std::int32_t i = 0; i < 20; ++i) {
-    VoxelMap revolution(kVoxels);
-    for (std::int32_t v = 0; v < kVoxels; ++v) {
-      const auto index = static_cast<std::size_t>(
-          revolution.find_or_add(robust::key_of({10 * i + v % 10, v / 10 % 10, v / 100})));
-      revolution.voxels()[index].moments.add_mm(1, 0, 0);
-    }
-    window.add(revolution, Vec3f::Zero(), 8);
+    window.add(block_at(10 * i, kVoxels), Vec3f::Zero(), 8);
     ASSERT_EQ(window.revolutions(), static_cast<std::uint32_t>(std::min(i + 1, 4)));
     for (std::size_t v = 0; v < kVoxels; ++v) ASSERT_NE(window.merged(v), VoxelMap::kNone);
   }
