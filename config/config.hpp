@@ -102,6 +102,7 @@ struct ConvexCut {
   double hull_distance_m = 0.08;
   std::uint32_t window = 30;
   double band_m = 0.06;
+  bool learn_first = true;
   std::uint32_t threads = 1;
   SimdPath simd = SimdPath::automatic;
 };

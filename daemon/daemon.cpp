@@ -63,20 +63,21 @@ std::vector<Reason> lasting_problems(const Realtime& realtime) {
   return {{Severity::degraded, "realtime set-up incomplete"}};
 }
 
-// What the robust method takes in a large hall on one core of a desktop (docs/design/robust.md).
-constexpr std::int64_t kRobustLatencyMs = 40;
+// What labels that wait for what their scan shows take in a large hall on one core of a desktop,
+// the last orientations included (docs/design/robust.md).
+constexpr std::int64_t kLearnFirstLatencyMs = 40;
 
 void warn_of_latency(const DaemonOptions& options) {
   const config::Config& config = options.config;
-  if (config.convex_cut.method != config::Method::robust) return;
-  if (config.worker.latency_ms >= kRobustLatencyMs) return;
-  log::warning("latency", {{"problem", "convex_cut.method = \"robust\" takes up to " +
-                                           std::to_string(kRobustLatencyMs) +
+  if (config.convex_cut.method != config::Method::robust || !config.convex_cut.learn_first) return;
+  if (config.worker.latency_ms >= kLearnFirstLatencyMs) return;
+  const std::string needed_ms = std::to_string(kLearnFirstLatencyMs);
+  log::warning("latency", {{"problem", "convex_cut.method = \"robust\" takes up to " + needed_ms +
                                            " ms a scan, worker.latency_ms is " +
                                            std::to_string(config.worker.latency_ms) +
                                            ": less will be computed, or results be late; set "
                                            "worker.latency_ms=" +
-                                           std::to_string(kRobustLatencyMs)}});
+                                           needed_ms + ", or convex_cut.learn_first=false"}});
 }
 
 constexpr auto kSupervision = std::chrono::milliseconds{20};

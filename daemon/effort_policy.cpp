@@ -4,12 +4,15 @@
 #include <algorithm>
 
 namespace convexcut::daemon {
-
 namespace {
 
-// On the average of the revolutions. At full effort, labels wait for what is learnt.
-[[nodiscard]] Duration busy(const EffortPolicy::Pace& pace, Effort effort) noexcept {
-  return pace.used + pace.learning / learning_stride(effort);
+[[nodiscard]] bool waits(const EffortPolicy::Pace& pace, Effort effort) noexcept {
+  return pace.learns_first && effort == Effort::full;
+}
+
+// After the labels, on the average of the revolutions.
+[[nodiscard]] Duration learning(const EffortPolicy::Pace& pace, Effort effort) noexcept {
+  return pace.learning / learning_stride(effort);
 }
 
 // Without a product that could overflow: some times are as long as they may be.
@@ -25,14 +28,15 @@ namespace {
 }  // namespace
 
 bool EffortPolicy::is_overrun(const Pace& pace) const noexcept {
-  if (pace.used > pace.budget) return true;
-  return effort_ != Effort::full && busy(pace, effort_) > pace.period;
+  const Duration after = waits(pace, effort_) ? Duration::zero() : learning(pace, effort_);
+  return pace.used > pace.budget || pace.used + after > pace.period;
 }
 
 bool EffortPolicy::is_calm(const Pace& pace) const noexcept {
   const Effort more = one_more(effort_);
-  const Duration until_labels = more == Effort::full ? pace.used + pace.learning : pace.used;
-  return is_calm_share(until_labels, pace.budget) && is_calm_share(busy(pace, more), pace.period);
+  const Duration in_all = pace.used + learning(pace, more);
+  const Duration until_labels = waits(pace, more) ? in_all : pace.used;
+  return is_calm_share(until_labels, pace.budget) && is_calm_share(in_all, pace.period);
 }
 
 void EffortPolicy::observe(const Pace& pace) noexcept {

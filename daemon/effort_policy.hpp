@@ -26,8 +26,9 @@ class EffortPolicy {
   struct Pace {
     Duration used;                      // until its labels were there
     Duration budget;                    // > 0: what it had for that
-    Duration learning{0};               // after its labels, of those that are learnt from
+    Duration learning{0};               // after the labels of a scan that is learnt from
     Duration period = Duration::max();  // > 0: for all of it
+    bool learns_first = false;          // at full effort labels wait for the learning
   };
   void observe(const Pace& pace) noexcept;
 

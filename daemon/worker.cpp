@@ -217,7 +217,8 @@ void Worker::adapt_effort(Duration used, HostTime begun, HostTime last_firing) n
   effort_.observe({.used = used,
                    .budget = std::max(until_due, options_.latency / 2),
                    .learning = learning_,
-                   .period = options_.period});
+                   .period = options_.period,
+                   .learns_first = pipeline_.learns_first()});
   pipeline_.set_effort(effort_.effort());
 }
 

@@ -25,11 +25,18 @@ namespace {
 
 std::vector<Timing> measure(const std::vector<Contender>& contenders, unsigned rounds) {
   std::vector<std::vector<double>> times_ms(contenders.size());
-  for (const Contender& contender : contenders) contender.run();
+  const auto finish = [](const Contender& contender) {
+    if (contender.after) contender.after();
+  };
+  for (const Contender& contender : contenders) {
+    contender.run();
+    finish(contender);
+  }
   for (unsigned round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < contenders.size(); ++i) {
       for (unsigned run = 0; run < contenders[i].runs_a_round; ++run) {
         times_ms[i].push_back(run_ms(contenders[i]));
+        finish(contenders[i]);
       }
     }
   }

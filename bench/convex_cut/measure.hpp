@@ -12,7 +12,8 @@ namespace convexcut::bench {
 struct Contender {
   std::string name;
   std::function<void()> run;
-  unsigned runs_a_round = 1;  // of the quick ones more, for a steady median
+  unsigned runs_a_round = 1;      // of the quick ones more, for a steady median
+  std::function<void()> after{};  // each run, not measured
 };
 
 struct Timing {

@@ -7,12 +7,12 @@ namespace convexcut::daemon {
 
 // How much is computed for a scan, in the order in which it is reduced when time is short. Fewer
 // planes come first: every point keeps its place and label, only structure seen by the left-out
-// planes alone is missed. Fewer points come last. The robust method has no slicing planes: its
-// labels no longer wait until it has learnt from their revolution, then it learns more rarely.
+// planes alone is missed. Fewer points come last. The robust method has no slicing planes: it
+// learns from fewer revolutions, and labels that waited for that no longer do.
 enum class Effort : std::uint8_t {
-  full,            // robust: labels by a revolution and those before
-  half_planes,     // every second slicing plane; robust: by those before, it is learnt from after
-  quarter_planes,  // every fourth; robust: every second revolution is learnt from
+  full,
+  half_planes,     // every second slicing plane; robust: every second revolution is learnt from
+  quarter_planes,  // every fourth
   half_points,     // every fourth plane or revolution, every second firing
 };
 
@@ -24,8 +24,7 @@ inline constexpr Effort kLeastEffort = Effort::half_points;
 }
 // Revolutions for one that is learnt from.
 [[nodiscard]] constexpr std::uint32_t learning_stride(Effort effort) noexcept {
-  if (effort == Effort::quarter_planes) return 2;
-  return effort == Effort::half_points ? 4 : 1;
+  return plane_stride(effort);
 }
 [[nodiscard]] constexpr std::uint32_t firing_stride(Effort effort) noexcept {
   return effort == Effort::half_points ? 2 : 1;

@@ -55,6 +55,7 @@ PipelineOptions pipeline_options(const config::Config& config, unsigned threads)
   options.convex_cut.hull_distance_m = config.convex_cut.hull_distance_m;
   options.method = config.convex_cut.method;
   options.robust.window = config.convex_cut.window;
+  options.learn_first = config.convex_cut.learn_first;
   options.robust.band_m = static_cast<float>(config.convex_cut.band_m);
   options.threads = threads != 0 ? threads : config.convex_cut.threads;
   options.fixed_mount = config.mount.orientation == config::MountOrientation::fixed;

@@ -143,7 +143,8 @@ void Pipeline::cut(LevelledScan& scan) noexcept {
   // A levelled cloud is finite and within the engine's capacity, so this cannot be refused; were it
   // ever, every point would keep the label `other`.
   if (robust_) {
-    static_cast<void>(effort_ == Effort::full
+    const bool learn_first = options_.learn_first && effort_ == Effort::full;
+    static_cast<void>(learn_first
                           ? robust_->label(scan.cloud(), scan.label, scan.position_m)
                           : robust_->label_at_once(scan.cloud(), scan.label, scan.position_m));
   } else {

@@ -59,6 +59,7 @@ struct PipelineOptions {
   config::Method method = config::Method::paper;
   ConvexCutParameters convex_cut;
   RobustParameters robust;
+  bool learn_first = true;  // see RobustCut::label() and label_at_once()
   unsigned threads = 1;
   // What a scan has beyond it is dropped and counted in overflow_returns.
   std::size_t max_returns_per_scan = kMostReturnsPerScan;
@@ -106,10 +107,12 @@ class Pipeline {
   // After cut(), once its labels are on their way: what they did not wait for. Whether there was
   // anything to learn.
   bool learn() noexcept;
-  // Both.
+  [[nodiscard]] bool learns_first() const noexcept { return options_.learn_first; }
+  // All three.
   [[nodiscard]] bool next_scan(HostTime now, LevelledScan& out) noexcept {
     if (!level_next(now, out)) return false;
     cut(out);
+    learn();
     return true;
   }
 

@@ -5,7 +5,6 @@
 #include "daemon/pipeline/pipeline.hpp"
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -287,26 +286,38 @@ TEST(Pipeline, AnglesThatAreNotUsedChangeNothing) {
   expect_at(scans[0], kFiring7Ring1, Vec3(7, 1, 0));
 }
 
-// The first revolution's labels have nothing else to come from than itself.
-TEST(Pipeline, WithLessEffortRobustLabelsDoNotWaitForWhatIsLearnt) {
+// How many of nine scans are learnt from after their labels. The first one's have nothing else to
+// come from than itself.
+int learnt_after(const PipelineOptions& options, Effort effort) {
+  Player player(options);
+  player.pipeline.set_effort(effort);
+  int scans = 0;
+  int learnt = 0;
+  for (std::int64_t packet = 0; scans < 9; ++packet) {
+    player.send_packet(packet);
+    if (!player.pipeline.level_next(player.arrival(packet), player.scan)) continue;
+    player.pipeline.cut(player.scan);
+    ++scans;
+    learnt += player.pipeline.learn() ? 1 : 0;
+  }
+  return learnt;
+}
+
+TEST(Pipeline, WithLessEffortTheRobustMethodLearnsFromFewerScans) {
   PipelineOptions options = fixed_mount();
   options.method = config::Method::robust;
-  for (const auto& [effort, expected] : {std::pair{Effort::full, 0},
-                                         {Effort::half_planes, 8},
-                                         {Effort::quarter_planes, 4},
-                                         {Effort::half_points, 2}}) {
-    Player player(options);
-    player.pipeline.set_effort(effort);
-    int scans = 0;
-    int learnt = 0;
-    for (std::int64_t packet = 0; scans < 9; ++packet) {
-      player.send_packet(packet);
-      if (!player.pipeline.next_scan(player.arrival(packet), player.scan)) continue;
-      ++scans;
-      learnt += player.pipeline.learn() ? 1 : 0;
-    }
-    EXPECT_EQ(learnt, expected) << static_cast<int>(effort);
-  }
+  options.learn_first = false;
+  EXPECT_EQ(learnt_after(options, Effort::full), 8);
+  EXPECT_EQ(learnt_after(options, Effort::half_planes), 4);
+  EXPECT_EQ(learnt_after(options, Effort::quarter_planes), 2);
+  EXPECT_EQ(learnt_after(options, Effort::half_points), 2);
+}
+
+TEST(Pipeline, LabelsThatWaitForWhatIsLearntNoLongerDoWithLessEffort) {
+  PipelineOptions options = fixed_mount();
+  options.method = config::Method::robust;
+  EXPECT_EQ(learnt_after(options, Effort::full), 0);
+  EXPECT_EQ(learnt_after(options, Effort::half_planes), 4);
 }
 
 TEST(Pipeline, ThePapersMethodLearnsNothing) {

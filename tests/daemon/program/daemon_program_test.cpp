@@ -99,7 +99,7 @@ TEST_F(DaemonProgram, AWrongConfigurationStopsTheStart) {
   EXPECT_THAT(run.err, HasSubstr("worker.period_ms"));
 }
 
-TEST_F(DaemonProgram, ALatencyTooShortForTheRobustMethodIsToldAtTheStart) {
+TEST_F(DaemonProgram, ALatencyTooShortForLearningFirstIsToldAtTheStart) {
   make_room({"--seconds", "0.3", "--empty"});
   const auto warned = [&](const std::string& latency_ms) {
     const ProgramResult run =
