@@ -22,6 +22,7 @@ constexpr float kRoomHighM = 2.2F;         // a layer as high as that is a part 
 constexpr float kLeastHeadM = 1.7F;        // over the floor: of doors and windows
 constexpr float kFootM = 0.35F;            // cells below have points of the floor
 constexpr float kLeastWallShare = 0.125F;  // of the cells seen of it
+constexpr float kLeastGlass = 0.2F;        // share of its cells
 constexpr std::int32_t kLeastDoorColumns = 2;
 constexpr std::int32_t kMostDoorColumns = 5;
 constexpr float kSolid = 0.7F;  // share of its columns that a door covers
@@ -43,6 +44,11 @@ constexpr float kSolid = 0.7F;  // share of its columns that a door covers
 [[nodiscard]] bool is_off(const Cell& cell, float face_m) noexcept {
   return cell.structure && !cell.visited && cell.points >= kLeastFacePoints &&
          std::abs(cell.mean_m() - face_m) > kOffM;
+}
+
+void be_wall(Cell& cell) noexcept {
+  cell.inset_m = cell.layer_m;
+  cell.layer_m = 0.0F;
 }
 
 // Where wall, or a hole under it, is seen in line with a cell of a layer.
@@ -95,11 +101,11 @@ void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
         if (!is_off(grids.cell(grid, column, row), plane.face_m)) continue;
         collect_layer(grids, grid, plane.face_m, {column, row});
         leave_out_doors(model, grids, k);
-        if (layer_.size() >= kLeastCells &&
+        if (layer_.size() >= kLeastCells && !is_glass(grids, grid) &&
             (is_in_front(grids, grid) || is_in_a_recess(grids, grid, plane.face_m))) {
           continue;
         }
-        for (const Place& at : layer_) grids.cell(grid, at.column, at.row).layer_m = 0.0F;
+        for (const Place& at : layer_) be_wall(grids.cell(grid, at.column, at.row));
       }
     }
   }
@@ -131,6 +137,14 @@ void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float fac
 
 bool Fixtures::is_in_front(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept {
   return grids.cell(grid, layer_.front().column, layer_.front().row).layer_m > 0.0F;
+}
+
+// Rays go through a pane where they do not return from it.
+bool Fixtures::is_glass(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept {
+  const auto passed = std::count_if(layer_.begin(), layer_.end(), [&](const Place& at) {
+    return grids.cell(grid, at.column, at.row).passed >= kPassed;
+  });
+  return static_cast<float>(passed) > kLeastGlass * static_cast<float>(layer_.size());
 }
 
 // What lies behind the face is a blind in a window when wall is seen above most of it, when it
@@ -241,7 +255,7 @@ void Fixtures::leave_out_doors(const Model& model, PlaneGrids& grids, std::size_
         (upright == Upright::door && columns >= kLeastDoorColumns && columns <= kMostDoorColumns);
     for (; first < end; ++first) {
       const Place at = layer_[first];
-      if (of_the_wall) grids.cell(grid, at.column, at.row).layer_m = 0.0F;
+      if (of_the_wall) be_wall(grids.cell(grid, at.column, at.row));
       if (!of_the_wall) layer_[kept++] = at;
     }
   }

@@ -31,6 +31,7 @@ class Fixtures {
                                    std::size_t first, std::size_t end) const noexcept;
   void collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float face_m, Place seed) noexcept;
   [[nodiscard]] bool is_in_front(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept;
+  [[nodiscard]] bool is_glass(const PlaneGrids& grids, const PlaneGrid& grid) const noexcept;
   [[nodiscard]] bool is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid,
                                     float face_m) const noexcept;
   [[nodiscard]] std::optional<float> wall_behind_face(const Model& model, PlaneGrids& grids,

@@ -10,8 +10,9 @@ struct RobustParameters {
   // Revolutions that decide together, the newest included: half a turn of a stage that turns by 60°
   // a second. Ten take two thirds of the time in a hall (docs/design/robust.md).
   std::uint32_t window = 30;
-  // A point is structure when it is at most this far from a surface that was accepted.
-  float band_m = 0.06F;
+  // A point is structure when it is at most this far before a surface that was accepted, and at
+  // most 0.1 m, or this, behind it.
+  float band_m = 0.055F;
 
   bool upright = true;     // corrects the direction of gravity by floor and walls
   bool align = true;       // corrects each revolution's pose by the planes known so far

@@ -35,6 +35,7 @@ struct Cell {
   float height_sum_m = 0.0F;   // of the points, over the plane
   float square_sum_m2 = 0.0F;  // of these heights
   float layer_m = 0.0F;        // how far the fixture that covers the cell is off the wall; 0: none
+  float inset_m = 0.0F;        // the same of a part of the wall: a door, a pane; 0: none
   bool structure = false;
   bool before = false;    // something is seen close before it
   bool hidden = false;    // the same, on the way of the lidar's rays to it
@@ -131,6 +132,13 @@ class PlaneGrids {
   // Whether the plane's structure goes on to p, in its row or its column, over some cells of which
   // nothing is known yet.
   [[nodiscard]] bool goes_on_to(std::size_t plane, const Vec3f& p) const noexcept;
+  // See Cell::inset_m.
+  [[nodiscard]] float inset_at(std::size_t plane, const Vec3f& p) const noexcept {
+    const PlaneGrid& g = grids_[plane];
+    const std::int32_t column = g.column_of(p);
+    const std::int32_t row = g.row_of(p);
+    return g.holds(column, row) ? cell(g, column, row).inset_m : 0.0F;
+  }
   // Whether anything of the plane was seen in the cell at p.
   [[nodiscard]] bool is_seen(std::size_t plane, const Vec3f& p) const noexcept {
     const PlaneGrid& g = grids_[plane];

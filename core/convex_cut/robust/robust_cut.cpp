@@ -35,6 +35,8 @@ constexpr float kViewSr = 4.5F;         // steradians, of an HDL-32E
 constexpr float kLeastOfLastShare = 0.5F;
 constexpr float kStillM = 0.02F;  // a step below this is none
 constexpr float kLasting = 0.5F;  // of a step that is not given: where no plane holds it, it ends
+// Behind a surface that bounds the room is nothing but noise: five sigma. Before it things stand.
+constexpr float kBehindM = 0.1F;
 constexpr float kHalfDiagonal = 0.87F;  // of a voxel, relative to its edge
 
 [[nodiscard]] const RobustParameters& checked(const RobustParameters& parameters) {
@@ -91,6 +93,7 @@ RobustCut::RobustCut(const RobustParameters& parameters, std::size_t max_points)
   model_.segments.reserve(kMostSegments);
   model_.planes.reserve(robust::PlaneSearch::kMostPlanes);
   near_.reserve(std::min(max_points, kMostVoxels));
+  edges_.reserve(1 + std::min(max_points, kMostVoxels));
 }
 
 void RobustCut::forget() noexcept {
@@ -249,6 +252,7 @@ void RobustCut::find_structure() noexcept {
 void RobustCut::take_near() noexcept {
   const std::span<const Voxel> voxels = revolution_.voxels();
   near_.resize(voxels.size());
+  edges_.resize(1);
   const float reach_m = parameters_.band_m + kHalfDiagonal * robust::kVoxelM;
   robust::MovedPoints centres{};
   const std::uint64_t accepted = robust::accepted_planes(model_.planes);
@@ -271,7 +275,7 @@ void RobustCut::take_near() noexcept {
 
 // in_window: the voxel, see Window::merged(). planes: within its reach.
 RobustCut::Near RobustCut::near_of(std::int32_t in_window, const Vec3f& centre,
-                                   std::uint64_t planes) const noexcept {
+                                   std::uint64_t planes) noexcept {
   Near near;
   const auto merged = static_cast<std::size_t>(in_window);
   const bool known = is_known(in_window);
@@ -282,10 +286,14 @@ RobustCut::Near RobustCut::near_of(std::int32_t in_window, const Vec3f& centre,
   near.unexplained = is_marked(is_curved_) || is_marked(is_pillar_);
   for (; planes != 0 && near.count < Near::kMost; planes &= planes - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(planes));
-    if (known && is_fixture(model_.surfels[merged], k)) continue;
-    const bool goes_on = !known && grids_.goes_on_to(k, centre);
-    near.goes_on |= static_cast<std::uint8_t>((goes_on ? 1U : 0U) << near.count);
-    near.planes.at(near.count++) = static_cast<std::uint8_t>(k);
+    NearPlane& plane = near.planes.at(near.count++);
+    plane.plane = static_cast<std::uint8_t>(k);
+    if (!known) {
+      plane.goes_on = grids_.goes_on_to(k, centre);
+    } else if (model_.planes[k].vertical) {
+      plane.inset_m = grids_.inset_at(k, model_.surfels[merged].mean);
+      plane.edge = edge_of(merged, k);
+    }
   }
   if (known) {
     near.recess = recesses_.recess_of(model_, grids_, model_.surfels[merged], parameters_.band_m);
@@ -293,49 +301,25 @@ RobustCut::Near RobustCut::near_of(std::int32_t in_window, const Vec3f& centre,
   return near;
 }
 
-// Of a plane's points here, over it: of the voxel and those before and behind it, since a border of
-// voxels may run through the noise of a wall, or between it and what hangs on it.
-float RobustCut::mean_height(const Surfel& surfel, std::size_t plane) const noexcept {
-  const Plane& p = model_.planes[plane];
-  float points = 0.0F;
-  float sum = 0.0F;
-  const auto add = [&](const Surfel& s) {
-    points += static_cast<float>(s.points);
-    sum += static_cast<float>(s.points) * p.height_of(s.mean);
-  };
-  add(surfel);
-  Eigen::Index axis = 0;
-  p.normal.cwiseAbs().maxCoeff(&axis);
-  for (const float step : {-robust::kVoxelM, robust::kVoxelM}) {
-    Vec3f at = surfel.mean;
-    at[axis] += step;
-    const std::int32_t voxel = window_.map().find(robust::key_of(robust::place_of(at)));
-    if (!is_known(voxel)) continue;
-    const Surfel& other = model_.surfels[static_cast<std::size_t>(voxel)];
-    if (other.plane == static_cast<std::int32_t>(plane)) add(other);
-  }
-  return sum / points;
-}
-
-// On a layer's cell or beside one, and nearer to the layer than to the wall.
-bool RobustCut::is_fixture(const Surfel& surfel, std::size_t plane) const noexcept {
-  const Plane& wall = model_.planes[plane];
-  if (!parameters_.fixtures || !wall.vertical) return false;
-  const float layer_m = grids_.layer_near(plane, surfel.mean);
-  if (layer_m == 0.0F) return false;
-  const float off_m = mean_height(surfel, plane) - wall.face_m;
-  return off_m * layer_m > 0.0F && std::abs(off_m) > std::abs(layer_m) / 2;
+// As an index into edges_. 0: no layer is near, or there is no room for another edge.
+std::uint16_t RobustCut::edge_of(std::size_t in_window, std::size_t plane) noexcept {
+  if (!parameters_.fixtures || edges_.size() == edges_.capacity()) return 0;
+  const auto edge = robust::LayerEdge::of(model_, grids_, window_.map(), in_window, plane);
+  if (!edge) return 0;
+  edges_.push_back(*edge);
+  return static_cast<std::uint16_t>(edges_.size() - 1);
 }
 
 bool RobustCut::is_structure(const Vec3f& p, std::int32_t voxel) const noexcept {
   if (voxel == VoxelMap::kNone) return false;
   const Near& near = near_[static_cast<std::size_t>(voxel)];
+  const float behind_m = std::max(parameters_.band_m, kBehindM);
   for (std::size_t i = 0; i < near.count; ++i) {
-    const auto k = static_cast<std::size_t>(near.planes.at(i));
-    if (std::abs(model_.planes[k].height_of(p)) <= parameters_.band_m &&
-        ((near.goes_on >> i & 1U) != 0 || grids_.is_within_reach(k, p))) {
-      return true;
-    }
+    const NearPlane& plane = near.planes.at(i);
+    const float height_m = model_.planes[plane.plane].height_of(p) - plane.inset_m;
+    if (height_m > parameters_.band_m || height_m < -behind_m) continue;
+    if (plane.edge != 0 && edges_[plane.edge].is_on_layer(p)) continue;
+    if (plane.goes_on || grids_.is_within_reach(plane.plane, p)) return true;
   }
   return near.unexplained || (near.recess != robust::Recesses::kNone &&
                               recesses_.holds(model_, near.recess, p, parameters_.band_m));

@@ -19,6 +19,7 @@
 #include "core/convex_cut/robust/curved.hpp"
 #include "core/convex_cut/robust/fixtures.hpp"
 #include "core/convex_cut/robust/flat_surfaces.hpp"
+#include "core/convex_cut/robust/layer_edge.hpp"
 #include "core/convex_cut/robust/mirrors.hpp"
 #include "core/convex_cut/robust/model.hpp"
 #include "core/convex_cut/robust/parameters.hpp"
@@ -77,13 +78,19 @@ class RobustCut {
   [[nodiscard]] const robust::Model& model() const noexcept { return model_; }
 
  private:
-  // Of a voxel: the accepted planes near it, and what was decided of its points.
+  // An accepted plane near a voxel.
+  struct NearPlane {
+    float inset_m = 0.0F;    // of a door or a pane, see Cell
+    std::uint16_t edge = 0;  // of a layer on the plane, in edges_; 0: none
+    std::uint8_t plane = 0;
+    bool goes_on = false;  // to here, where nothing is known
+  };
+  // Of a voxel: the planes near it, and what was decided of its points.
   struct Near {
     static constexpr std::size_t kMost = 4;
-    std::array<std::uint8_t, kMost> planes{};
+    std::array<NearPlane, kMost> planes{};
     std::uint8_t count = 0;
-    std::uint8_t goes_on = 0;  // bit i: planes[i] reaches to here, as far as nothing is known
-    bool unexplained = false;  // by planes, but structure
+    bool unexplained = false;                               // by planes, but structure
     robust::Recesses::Id recess = robust::Recesses::kNone;  // whose side it is
     robust::Verdict verdict = robust::Verdict::as_now;
     std::int32_t structure = 0;  // points
@@ -102,9 +109,8 @@ class RobustCut {
   }
   void take_near() noexcept;
   [[nodiscard]] Near near_of(std::int32_t in_window, const Vec3f& centre,
-                             std::uint64_t planes) const noexcept;
-  [[nodiscard]] float mean_height(const robust::Surfel& surfel, std::size_t plane) const noexcept;
-  [[nodiscard]] bool is_fixture(const robust::Surfel& surfel, std::size_t plane) const noexcept;
+                             std::uint64_t planes) noexcept;
+  [[nodiscard]] std::uint16_t edge_of(std::size_t in_window, std::size_t plane) noexcept;
   [[nodiscard]] bool is_structure(const Vec3f& p, std::int32_t voxel) const noexcept;
   void write_labels(const CloudView& cloud, std::span<Label> labels) noexcept;
   void label_points(const CloudView& cloud, std::span<Label> labels) noexcept;
@@ -129,6 +135,7 @@ class RobustCut {
   robust::Pillars pillars_;
   robust::Recesses recesses_;
   std::span<const std::uint8_t> is_curved_, is_pillar_;  // by surfel
+  std::vector<robust::LayerEdge> edges_;                 // the first is none
   std::vector<Near> near_;                               // by voxel of the revolution
   robust::RigPose pose_;
   std::optional<Vec3> given_position_m_;  // of the last revolution

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What lies flat on a wall or in it, point by point: edges of boards, panes of glass, doors, and
+// noise. How much that is worth in furnished rooms is measured by bench/accuracy.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/convex_cut/robust/robust_cut.hpp"
+#include "tests/core/convex_cut/robust/room_cut.hpp"
+
+namespace convexcut {
+namespace {
+
+using test::BoxRoom;
+using test::cut;
+using test::Kept;
+using test::kKept;
+using test::LabelledCloud;
+using test::with;
+
+// Of the points on a box (or test::kWalls) that a test is true of.
+template <class Test>
+[[nodiscard]] double share_kept(const Kept& kept, int box, Test&& is_asked) {
+  std::size_t all = 0;
+  std::size_t structure = 0;
+  for (std::size_t i = 0; i < kept.labels.size(); ++i) {
+    const auto& [x, y, z] = kept.cloud.cloud;
+    if (kept.cloud.box[i] != box || !is_asked(Vec3f(x[i], y[i], z[i]))) continue;
+    ++all;
+    structure += kept.labels[i] == Label::structure ? 1U : 0U;
+  }
+  EXPECT_GT(all, 30U) << "of box " << box;
+  return static_cast<double>(structure) / static_cast<double>(all);
+}
+
+// Voxels of 0.2 m hold both of them; how well they are told depends on where in one the edge lies.
+TEST(RobustLayers, TellsABoardFromItsWallUpToItsEdges) {
+  const std::vector<double> shifts_m{0.0, 0.05, 0.1, 0.15};
+  double wall = 0.0;
+  double board = 0.0;
+  for (const double shift_m : shifts_m) {
+    constexpr double kBesideM = 0.1;
+    const double low = -0.4 + shift_m;
+    const double high = 0.6 + shift_m;
+    const Kept kept = cut(with({{3.96, low, -0.5}, {4.0, high, 0.7}}), {.noise_m = 0.01}, 4);
+    const auto is_beside = [&](const Vec3f& p) {
+      const auto y = static_cast<double>(p.y());
+      return p.x() > 3.9F && p.z() > -0.4F && p.z() < 0.6F &&
+             std::min(std::abs(y - low), std::abs(y - high)) < kBesideM;
+    };
+    wall += share_kept(kept, test::kWalls, is_beside) / static_cast<double>(shifts_m.size());
+    board += share_kept(kept, 0, is_beside) / static_cast<double>(shifts_m.size());
+  }
+  EXPECT_GT(wall, 0.8);
+  EXPECT_LT(board, 0.08);
+}
+
+// Noise of 4 cm, so that there is enough of it.
+TEST(RobustLayers, KeepsNoiseBehindAWall) {
+  const Kept kept = cut({}, {.noise_m = 0.04}, 4);
+  const auto is_behind = [](const Vec3f& p) {
+    return p.x() > 4.07F && p.x() < 4.09F && std::abs(p.y()) < 2.5F && p.z() > -1.0F &&
+           p.z() < 1.0F;
+  };
+  EXPECT_GT(share_kept(kept, test::kWalls, is_behind), kKept);
+}
+
+// Every other firing goes through the pane.
+[[nodiscard]] LabelledCloud through_glass(const BoxRoom& glazed, const BoxRoom& open,
+                                          const test::Sight& sight) {
+  constexpr std::size_t kLasers = 32;
+  LabelledCloud seen = test::revolution_in(glazed, sight);
+  const LabelledCloud passed = test::revolution_in(open, sight);
+  for (std::size_t i = 0; i < seen.cloud.size(); ++i) {
+    if (i / kLasers % 2 == 0) continue;
+    seen.cloud.x[i] = passed.cloud.x[i];
+    seen.cloud.y[i] = passed.cloud.y[i];
+    seen.cloud.z[i] = passed.cloud.z[i];
+    seen.box[i] = passed.box[i];
+  }
+  return seen;
+}
+
+TEST(RobustLayers, KeepsAPaneOfGlassInARecess) {
+  BoxRoom open;
+  open.boxes = {{{2.0, -3.0, -1.2}, {2.1, -0.8, 1.6}},
+                {{2.0, 0.8, -1.2}, {2.1, 3.0, 1.6}},
+                {{2.0, -0.8, -0.1}, {2.1, 0.8, 1.6}}};
+  BoxRoom glazed = open;
+  glazed.boxes.push_back({{2.03, -0.8, -1.2}, {2.05, 0.8, -0.1}});
+  RobustCut robust({}, test::kMostPoints);
+  Kept kept;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    kept.cloud = through_glass(glazed, open, {.noise_m = 0.01, .seed = seed});
+    kept.labels.assign(kept.cloud.cloud.size(), Label::other);
+    ASSERT_EQ(robust.label(kept.cloud.cloud.view(), kept.labels), CutStatus::ok);
+  }
+  EXPECT_GT(kept.share_of(3), 0.8);
+  EXPECT_GT(kept.share_of(2), 0.8);
+}
+
+}  // namespace
+}  // namespace convexcut
