@@ -101,7 +101,7 @@ struct ConvexCut {
   double half_width_m = 0.05;
   double hull_distance_m = 0.08;
   std::uint32_t window = 30;
-  double band_m = 0.06;
+  double band_m = 0.055;
   bool learn_first = true;
   std::uint32_t threads = 1;
   SimdPath simd = SimdPath::automatic;
