@@ -22,7 +22,8 @@ constexpr float kRoomHighM = 2.2F;         // a layer as high as that is a part 
 constexpr float kLeastHeadM = 1.7F;        // over the floor: of doors and windows
 constexpr float kFootM = 0.35F;            // cells below have points of the floor
 constexpr float kLeastWallShare = 0.125F;  // of the cells seen of it
-constexpr float kLeastGlass = 0.2F;        // share of its cells
+constexpr float kLeastGlass = 0.2F;        // share of a layer's cells that rays go through
+constexpr float kLeastGlassOfFace = 0.1F;  // the same of a face's
 constexpr std::int32_t kLeastDoorColumns = 2;
 constexpr std::int32_t kMostDoorColumns = 5;
 constexpr float kSolid = 0.7F;  // share of its columns that a door covers
@@ -44,6 +45,23 @@ constexpr float kSolid = 0.7F;  // share of its columns that a door covers
 [[nodiscard]] bool is_off(const Cell& cell, float face_m) noexcept {
   return cell.structure && !cell.visited && cell.points >= kLeastFacePoints &&
          std::abs(cell.mean_m() - face_m) > kOffM;
+}
+
+// Whether rays go through the face: what is proud of it is its frame.
+[[nodiscard]] bool is_glazed(const PlaneGrids& grids, const PlaneGrid& grid,
+                             float face_m) noexcept {
+  std::size_t cells = 0;
+  std::size_t passed = 0;
+  for (std::int32_t row = 0; row < grid.rows; ++row) {
+    for (std::int32_t column = 0; column < grid.columns; ++column) {
+      const Cell& cell = grids.cell(grid, column, row);
+      if (!cell.structure || cell.points < kLeastFacePoints) continue;
+      if (std::abs(cell.mean_m() - face_m) > kOffM) continue;
+      ++cells;
+      passed += cell.passed >= kPassed ? 1U : 0U;
+    }
+  }
+  return static_cast<float>(passed) > kLeastGlassOfFace * static_cast<float>(cells);
 }
 
 void be_wall(Cell& cell) noexcept {
@@ -96,13 +114,14 @@ void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
     const PlaneGrid& grid = grids.grid(k);
     plane.face_m = face_of(grids, grid);
     plane.face_m = wall_behind_face(model, grids, k).value_or(plane.face_m);
+    const bool glazed = is_glazed(grids, grid, plane.face_m);
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       for (std::int32_t column = 0; column < grid.columns; ++column) {
         if (!is_off(grids.cell(grid, column, row), plane.face_m)) continue;
         collect_layer(grids, grid, plane.face_m, {column, row});
         leave_out_doors(model, grids, k);
         if (layer_.size() >= kLeastCells && !is_glass(grids, grid) &&
-            (is_in_front(grids, grid) || is_in_a_recess(grids, grid, plane.face_m))) {
+            (is_in_front(grids, grid) ? !glazed : is_in_a_recess(grids, grid, plane.face_m))) {
           continue;
         }
         for (const Place& at : layer_) be_wall(grids.cell(grid, at.column, at.row));
