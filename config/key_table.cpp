@@ -204,7 +204,7 @@ constexpr std::array kKeys{
         "convex_cut.band_m", Number{0.001, 0.2}, "m",
         "Robust: a point is structure when it is at most this far before an accepted surface; "
         "behind "
-        "it, 0.1 m or this."),
+        "it, 0.08 m or this."),
     bind_key<&Config::convex_cut, &ConvexCut::learn_first>(
         "convex_cut.learn_first", Boolean{}, "",
         "Robust: whether labels wait until their revolution is learnt from: a little better, and "

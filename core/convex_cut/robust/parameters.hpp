@@ -11,7 +11,7 @@ struct RobustParameters {
   // a second. Ten take two thirds of the time in a hall (docs/design/robust.md).
   std::uint32_t window = 30;
   // A point is structure when it is at most this far before a surface that was accepted, and at
-  // most 0.1 m, or this, behind it.
+  // most 8 cm, or this, behind it.
   float band_m = 0.055F;
 
   bool upright = true;     // corrects the direction of gravity by floor and walls

@@ -35,8 +35,8 @@ constexpr float kViewSr = 4.5F;         // steradians, of an HDL-32E
 constexpr float kLeastOfLastShare = 0.5F;
 constexpr float kStillM = 0.02F;  // a step below this is none
 constexpr float kLasting = 0.5F;  // of a step that is not given: where no plane holds it, it ends
-// Behind a surface that bounds the room is nothing but noise: five sigma. Before it things stand.
-constexpr float kBehindM = 0.1F;
+// Behind a surface that bounds the room is nothing but noise: four sigma. Before it things stand.
+constexpr float kBehindM = 0.08F;
 constexpr float kHalfDiagonal = 0.87F;  // of a voxel, relative to its edge
 
 [[nodiscard]] const RobustParameters& checked(const RobustParameters& parameters) {

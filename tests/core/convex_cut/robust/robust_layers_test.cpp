@@ -63,7 +63,7 @@ TEST(RobustLayers, TellsABoardFromItsWallUpToItsEdges) {
 TEST(RobustLayers, KeepsNoiseBehindAWall) {
   const Kept kept = cut({}, {.noise_m = 0.04}, 4);
   const auto is_behind = [](const Vec3f& p) {
-    return p.x() > 4.07F && p.x() < 4.09F && std::abs(p.y()) < 2.5F && p.z() > -1.0F &&
+    return p.x() > 4.058F && p.x() < 4.074F && std::abs(p.y()) < 2.5F && p.z() > -1.0F &&
            p.z() < 1.0F;
   };
   EXPECT_GT(share_kept(kept, test::kWalls, is_behind), kKept);
