@@ -202,9 +202,8 @@ constexpr std::array kKeys{
         "Robust: the last revolutions that decide together."),
     bind_key<&Config::convex_cut, &ConvexCut::band_m>(
         "convex_cut.band_m", Number{0.001, 0.2}, "m",
-        "Robust: a point is structure when it is at most this far before an accepted surface; "
-        "behind "
-        "it, 0.08 m or this."),
+        "Robust: a point is structure at most this far before an accepted surface; behind it, at "
+        "most 0.08 m or this."),
     bind_key<&Config::convex_cut, &ConvexCut::learn_first>(
         "convex_cut.learn_first", Boolean{}, "",
         "Robust: whether labels wait until their revolution is learnt from: a little better, and "
