@@ -140,9 +140,9 @@ The plot has {sum(c['name'].startswith('size_') for c in report['cases'])} sizes
 ## The robust method
 
 On one thread, its window of 30 revolutions full, in two of the simulator's scenes (`docs/scenes.md`; tilt 30°, turning by 6° a
-revolution), in turns with Algorithm 1 with Qhull on a revolution of the same scene. *Labels at once* are those by the revolutions before:
-what `convexcutd` gives where the labels of `robust` would be late; their revolution is learnt from when they are published, or, where
-there is no time for that either, every second one (*learning of 1 in 2*: everything, on the average of two revolutions).
+revolution), in turns with Algorithm 1 with Qhull on a revolution of the same scene. *Labels at once* (`convex_cut.learn_first = false`)
+are those by the revolutions before; each revolution is learnt from when its labels are handed over, with less effort every second one
+(*learning of 1 in 2*: everything, on the average of two revolutions).
 
 {robust}
 
