@@ -17,7 +17,6 @@
 namespace convexcut {
 namespace {
 
-using robust::Plane;
 using robust::Surfel;
 using robust::Voxel;
 using robust::VoxelMap;
