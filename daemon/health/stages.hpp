@@ -18,7 +18,7 @@ enum class Stage : std::uint8_t {
   arrival_to_worker,  // a datagram's kernel stamp → its batch is taken out; the worker
   level,              // a scan is levelled; the worker
   cut,                // … and cut into structure and the rest; the worker
-  learn,              // what its labels did not wait for (robust, reduced effort); the worker
+  learn,              // what its labels did not wait for (robust); the worker
   publish,            // the DDS write of the structure; the publisher
   latency,            // a scan's last firing → that write returned; the publisher
   jitter,             // how far from its due time a write returned; the publisher

@@ -22,21 +22,6 @@ using test::kKept;
 using test::LabelledCloud;
 using test::with;
 
-// Of the points on a box (or test::kWalls) that a test is true of.
-template <class Test>
-[[nodiscard]] double share_kept(const Kept& kept, int box, Test&& is_asked) {
-  std::size_t all = 0;
-  std::size_t structure = 0;
-  for (std::size_t i = 0; i < kept.labels.size(); ++i) {
-    const auto& [x, y, z] = kept.cloud.cloud;
-    if (kept.cloud.box[i] != box || !is_asked(Vec3f(x[i], y[i], z[i]))) continue;
-    ++all;
-    structure += kept.labels[i] == Label::structure ? 1U : 0U;
-  }
-  EXPECT_GT(all, 30U) << "of box " << box;
-  return static_cast<double>(structure) / static_cast<double>(all);
-}
-
 // Voxels of 0.2 m hold both of them; how well they are told depends on where in one the edge lies.
 TEST(RobustLayers, TellsABoardFromItsWallUpToItsEdges) {
   const std::vector<double> shifts_m{0.0, 0.05, 0.1, 0.15};
@@ -52,8 +37,8 @@ TEST(RobustLayers, TellsABoardFromItsWallUpToItsEdges) {
       return p.x() > 3.9F && p.z() > -0.4F && p.z() < 0.6F &&
              std::min(std::abs(y - low), std::abs(y - high)) < kBesideM;
     };
-    wall += share_kept(kept, test::kWalls, is_beside) / static_cast<double>(shifts_m.size());
-    board += share_kept(kept, 0, is_beside) / static_cast<double>(shifts_m.size());
+    wall += kept.share_of(test::kWalls, is_beside) / static_cast<double>(shifts_m.size());
+    board += kept.share_of(0, is_beside) / static_cast<double>(shifts_m.size());
   }
   EXPECT_GT(wall, 0.8);
   EXPECT_LT(board, 0.08);
@@ -66,7 +51,7 @@ TEST(RobustLayers, KeepsNoiseBehindAWall) {
     return p.x() > 4.058F && p.x() < 4.074F && std::abs(p.y()) < 2.5F && p.z() > -1.0F &&
            p.z() < 1.0F;
   };
-  EXPECT_GT(share_kept(kept, test::kWalls, is_behind), kKept);
+  EXPECT_GT(kept.share_of(test::kWalls, is_behind), kKept);
 }
 
 // Every other firing goes through the pane.

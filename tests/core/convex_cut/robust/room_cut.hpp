@@ -19,10 +19,16 @@ struct Kept {
   std::vector<Label> labels;
 
   [[nodiscard]] double share_of(int box) const {
+    return share_of(box, [](const Vec3f&) { return true; });
+  }
+  // Of the points on it that a test is true of.
+  template <class Test>
+  [[nodiscard]] double share_of(int box, Test&& is_asked) const {
+    const auto& [x, y, z] = cloud.cloud;
     std::size_t all = 0;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (cloud.box[i] != box) continue;
+      if (cloud.box[i] != box || !is_asked(Vec3f(x[i], y[i], z[i]))) continue;
       ++all;
       kept += labels[i] == Label::structure ? 1U : 0U;
     }
