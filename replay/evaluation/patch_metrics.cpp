@@ -13,7 +13,7 @@ using simulation::SurfaceLabel;
 // Of one patch.
 struct Tally {
   std::uint64_t points = 0;
-  std::uint64_t covered = 0;  // in patches of the output; or of the output's, in kept ones
+  std::uint64_t covered = 0;  // of the input's: in the output; of the output's: in kept ones
   std::uint64_t judged = 0;
   std::uint64_t structure = 0;
 
@@ -52,13 +52,15 @@ PatchCounts& PatchCounts::operator+=(const PatchCounts& other) noexcept {
 }
 
 PatchCounts count_patches(std::span<const std::uint32_t> input_patch,
+                          std::span<const Label> result,
                           std::span<const std::uint32_t> output_patch,
                           std::span<const SurfaceLabel> truth) {
-  if (input_patch.size() != truth.size() || output_patch.size() != truth.size()) {
-    throw std::invalid_argument("patches and truth of a scan differ in number");
+  if (input_patch.size() != truth.size() || result.size() != truth.size() ||
+      output_patch.size() != truth.size()) {
+    throw std::invalid_argument("patches, labels and truth of a scan differ in number");
   }
   const std::vector<Tally> inputs =
-      tally(input_patch, truth, [&](std::size_t i) { return output_patch[i] != kNoPatch; });
+      tally(input_patch, truth, [&](std::size_t i) { return result[i] == Label::structure; });
   const std::vector<Tally> outputs = tally(output_patch, truth, [&](std::size_t i) {
     return input_patch[i] != kNoPatch && inputs[input_patch[i]].half_covered();
   });
@@ -109,7 +111,7 @@ PatchCounts PatchJudge::judge(std::span<const Label> result) {
   const PlanePatches patches = extractor_.extract({kept_x_, kept_y_, kept_z_});
   output_.assign(result.size(), kNoPatch);
   for (std::size_t k = 0; k < kept_.size(); ++k) output_[kept_[k]] = patches.patch_of_point[k];
-  return count_patches(input_, output_, truth_);
+  return count_patches(input_, result, output_, truth_);
 }
 
 }  // namespace convexcut::evaluation

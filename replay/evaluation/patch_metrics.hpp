@@ -11,7 +11,9 @@
 // What the paper leaves open is set here:
 // * A patch is real structure when more than half of its judged points (true label not `none`) are,
 //   otherwise it is an object's; people are objects. A patch without judged points is in no class.
-// * A patch of the input is kept when at least half of its points are in patches of the output.
+// * A patch of the input is kept when at least half of its points are in the output. Not: in patches
+//   of the output. A smaller cloud has other patches, also where nothing is missing, and labels that
+//   are the truth would lose some: perfect labels have precision and recall 1 here.
 // * A patch of the output is a *fragment* when more than half of its points are in no kept patch of
 //   the input: the output shows something that the classes above have counted as removed or lost,
 //   or never saw. An object's fragment counts as B; a fragment of structure counts as nothing.
@@ -45,10 +47,11 @@ struct PatchCounts {
   return score_of(counts.structure_kept, counts.objects_kept, counts.structure_lost);
 }
 
-// One patch number (or kNoPatch) for each point of the input: of the patches of the input cloud,
-// and of those of the output cloud (kNoPatch for a point that was removed). Throws
-// std::invalid_argument when the spans differ in length.
+// For each point of the input: the number of its patch of the input cloud (or kNoPatch), its label,
+// and the number of its patch of the output cloud (kNoPatch also for a point that was removed).
+// Throws std::invalid_argument when the spans differ in length.
 [[nodiscard]] PatchCounts count_patches(std::span<const std::uint32_t> input_patch,
+                                        std::span<const Label> result,
                                         std::span<const std::uint32_t> output_patch,
                                         std::span<const simulation::SurfaceLabel> truth);
 

@@ -135,10 +135,11 @@ TEST(Summary, OfOneOrNoValueHasNoDeviation) {
   EXPECT_EQ(summary.standard_deviation(), 0.0);
 }
 
-// Patches of ten points each, in order: the truth, and how many points the output's patch has.
+// Patches of ten points each, in order: the truth, and how many points are kept; these are a patch of
+// the output.
 struct Patch {
   SurfaceLabel truth;
-  int covered;
+  int kept;
 };
 
 class Cloud {
@@ -147,14 +148,17 @@ class Cloud {
     for (std::size_t p = 0; p < patches.size(); ++p) {
       for (int i = 0; i < 10; ++i) {
         input.push_back(static_cast<std::uint32_t>(p));
-        output.push_back(i < patches[p].covered ? static_cast<std::uint32_t>(p) : kNoPatch);
+        const bool is_kept = i < patches[p].kept;
+        result.push_back(is_kept ? kKept : kGone);
+        output.push_back(is_kept ? static_cast<std::uint32_t>(p) : kNoPatch);
         truth.push_back(patches[p].truth);
       }
     }
   }
-  [[nodiscard]] PatchCounts count() const { return count_patches(input, output, truth); }
+  [[nodiscard]] PatchCounts count() const { return count_patches(input, result, output, truth); }
 
   std::vector<std::uint32_t> input, output;
+  std::vector<Label> result;
   std::vector<SurfaceLabel> truth;
 };
 
@@ -195,6 +199,16 @@ TEST(PatchMetrics, AWallInTwoPiecesIsOnePatchKept) {
   const PatchCounts counts = cloud.count();
   EXPECT_EQ(counts.structure_kept, 1U);
   EXPECT_EQ(counts.objects_kept + counts.structure_lost, 0U);
+}
+
+// Such as one of 102 points at the end of a row of others that are gone.
+TEST(PatchMetrics, AKeptPatchThatIsNotFoundInTheOutputAgainIsKept) {
+  Cloud cloud({{kWall, 10}, {kDesk, 10}});
+  std::ranges::fill(cloud.output, kNoPatch);
+  const PatchCounts counts = cloud.count();
+  EXPECT_EQ(counts.structure_kept, 1U);
+  EXPECT_EQ(counts.objects_kept, 1U);
+  EXPECT_EQ(counts.structure_lost + counts.objects_removed, 0U);
 }
 
 TEST(PatchMetrics, TheMajorityOfTheJudgedPointsDecidesWhatAPatchIs) {
