@@ -135,8 +135,8 @@ TEST(Summary, OfOneOrNoValueHasNoDeviation) {
   EXPECT_EQ(summary.standard_deviation(), 0.0);
 }
 
-// Patches of ten points each, in order: the truth, and how many points are kept; these are a patch of
-// the output.
+// Patches of ten points each, in order: the truth, and how many points are kept; these are a patch
+// of the output.
 struct Patch {
   SurfaceLabel truth;
   int kept;
