@@ -243,7 +243,7 @@ void RobustCut::find_structure() noexcept {
   robust::measure_spread(model_, window_.map().voxels());
   grids_.build(model_);
   flat_surfaces_.find(model_, grids_, window_.origin(), parameters_.free_space);
-  walls_.find(model_, grids_, parameters_);
+  walls_.find(model_, grids_, window_.origin(), parameters_);
   if (parameters_.furniture) robust::mark_backs(model_, grids_);
   if (parameters_.fixtures) fixtures_.find(model_, grids_);
 }

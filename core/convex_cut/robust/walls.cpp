@@ -32,6 +32,7 @@ constexpr std::uint32_t kLeastCells = 4;
 constexpr std::uint32_t kLargeCells = 40;  // of a wall, in all
 constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
 constexpr float kSeenOver = 0.15F;         // share of a run, for all of it that is no higher
+constexpr float kSeenOverLow = 0.05F;      // the same of what ends below the lidar
 
 // The share of neighbouring cells of columns [first, end) whose means differ: great where depths
 // change from book to book, small on a wall with a picture on it. 0 where too few are known.
@@ -170,7 +171,9 @@ Walls::Walls() {
   tops_m_.reserve(kMostColumns);
 }
 
-void Walls::find(Model& model, PlaneGrids& grids, const RobustParameters& parameters) noexcept {
+void Walls::find(Model& model, PlaneGrids& grids, const Vec3f& lidar,
+                 const RobustParameters& parameters) noexcept {
+  lidar_z_ = lidar.z();
   model.segments.clear();
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     if (!model.planes[k].vertical || model.planes[k].edge_on) continue;
@@ -260,8 +263,10 @@ void Walls::split(Model& model, const PlaneGrids& grids, std::size_t plane,
 }
 
 // Where something behind is seen over a part of a run, what is no higher beside it ends there too,
-// although nothing is seen over that.
-void Walls::open_below_top(std::int32_t first, std::int32_t end) noexcept {
+// although nothing is seen over that. A wall's top is seldom below the lidar; a counter's is, and
+// along its front few rays get over it.
+void Walls::open_below_top(const Model& model, const PlaneGrids& grids, std::size_t plane,
+                           std::int32_t first, std::int32_t end) noexcept {
   std::int32_t seen = 0;
   std::int32_t seen_over = 0;
   std::int32_t top = -1;
@@ -272,7 +277,10 @@ void Walls::open_below_top(std::int32_t first, std::int32_t end) noexcept {
     seen_over += column.seen;
     top = std::max(top, column.top);
   }
-  if (static_cast<float>(seen_over) < kSeenOver * static_cast<float>(seen)) return;
+  if (seen_over == 0) return;
+  const float top_z = grids.grid(plane).centre(model.planes[plane], first, top).z() + kCellM / 2;
+  const float share = top_z < lidar_z_ ? kSeenOverLow : kSeenOver;
+  if (static_cast<float>(seen_over) < share * static_cast<float>(seen)) return;
   for (std::int32_t c = first; c < end; ++c) {
     Column& column = columns_[static_cast<std::size_t>(c)];
     if (column.top <= top + 1) column.open = std::max(column.open, 1);
@@ -283,7 +291,7 @@ void Walls::open_below_top(std::int32_t first, std::int32_t end) noexcept {
 // higher than all of the open ones (a pillar between bookcases).
 void Walls::split_run(Model& model, const PlaneGrids& grids, std::size_t plane, std::int32_t first,
                       std::int32_t end) noexcept {
-  open_below_top(first, end);
+  open_below_top(model, grids, plane, first, end);
   std::int32_t closed = 0;
   std::int32_t open = 0;
   std::int32_t open_top = -1;

@@ -20,8 +20,9 @@ class Walls {
  public:
   Walls();
 
-  // Fills model.segments and marks the cells of those that are accepted.
-  void find(Model& model, PlaneGrids& grids, const RobustParameters& parameters) noexcept;
+  // Fills model.segments and marks the cells of those that are accepted. lidar: where it is.
+  void find(Model& model, PlaneGrids& grids, const Vec3f& lidar,
+            const RobustParameters& parameters) noexcept;
 
  private:
   struct Column {
@@ -34,13 +35,15 @@ class Walls {
   [[nodiscard]] static bool hangs_from_ceiling(const Model& model, const PlaneGrids& grids,
                                                std::size_t plane, std::int32_t c,
                                                const Column& column) noexcept;
-  void open_below_top(std::int32_t first, std::int32_t end) noexcept;
+  void open_below_top(const Model& model, const PlaneGrids& grids, std::size_t plane,
+                      std::int32_t first, std::int32_t end) noexcept;
   void split(Model& model, const PlaneGrids& grids, std::size_t plane, bool free_space) noexcept;
   void split_run(Model& model, const PlaneGrids& grids, std::size_t plane, std::int32_t first,
                  std::int32_t end) noexcept;
   void add_segment(Model& model, const PlaneGrids& grids, std::size_t plane, std::int32_t first,
                    std::int32_t end, bool accepted) noexcept;
 
+  float lidar_z_ = 0.0F;
   std::vector<Column> columns_;  // of the plane at hand
   std::vector<float> tops_m_;    // of the segment at hand, by column
 };

@@ -150,6 +150,14 @@ TEST(RobustRules, RemovesAPartitionThatIsLookedOverInAPart) {
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
+// A twelfth of a counter's front is; a wall's top would not be below the lidar.
+TEST(RobustRules, RemovesALowFrontThatIsLookedOverInASmallPart) {
+  BoxRoom room;
+  room.walls = {{-4.0, -4.0, -1.2}, {4.0, 4.0, 1.6}};
+  room.boxes = {{{2.0, -4.0, -1.2}, {2.4, 3.0, -0.25}}, {{0.9, -2.0, -0.11}, {0.95, 1.18, 1.6}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
+}
+
 // What is above it is hidden by a monitor.
 TEST(RobustRules, RemovesTheSideOfADesk) {
   BoxRoom room;
