@@ -51,8 +51,7 @@ PatchCounts& PatchCounts::operator+=(const PatchCounts& other) noexcept {
   return *this;
 }
 
-PatchCounts count_patches(std::span<const std::uint32_t> input_patch,
-                          std::span<const Label> result,
+PatchCounts count_patches(std::span<const std::uint32_t> input_patch, std::span<const Label> result,
                           std::span<const std::uint32_t> output_patch,
                           std::span<const SurfaceLabel> truth) {
   if (input_patch.size() != truth.size() || result.size() != truth.size() ||
