@@ -65,6 +65,12 @@ struct WallSegment {
 };
 
 // What is narrower may be a pillar, a person or the side of furniture.
+// Where the lidar is, and how many revolutions the model is made of.
+struct Sighting {
+  Vec3f lidar = Vec3f::Zero();
+  std::uint32_t revolutions = 1;
+};
+
 inline constexpr float kNarrowM = 0.8F;
 
 struct Model {

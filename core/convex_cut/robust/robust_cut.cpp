@@ -11,6 +11,7 @@
 #include "core/convex_cut/cloud_check.hpp"
 #include "core/convex_cut/robust/backs.hpp"
 #include "core/convex_cut/robust/point_kernels.hpp"
+#include "core/convex_cut/robust/second_look.hpp"
 #include "core/convex_cut/robust/shape.hpp"
 #include "core/convex_cut/robust/spread.hpp"
 
@@ -243,8 +244,11 @@ void RobustCut::find_structure() noexcept {
   robust::measure_spread(model_, window_.map().voxels());
   grids_.build(model_);
   flat_surfaces_.find(model_, grids_, window_.origin(), parameters_.free_space);
-  walls_.find(model_, grids_, window_.origin(), parameters_);
-  if (parameters_.furniture) robust::mark_backs(model_, grids_);
+  walls_.find(model_, grids_, {window_.origin(), window_.revolutions()}, parameters_);
+  if (parameters_.furniture) {
+    robust::mark_backs(model_, grids_);
+    robust::reject_what_is_behind(model_, grids_);
+  }
   if (parameters_.fixtures) fixtures_.find(model_, grids_);
 }
 

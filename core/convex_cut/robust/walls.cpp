@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/convex_cut/robust/furniture.hpp"
+#include "core/convex_cut/robust/second_look.hpp"
 
 namespace convexcut::robust {
 namespace {
@@ -171,9 +172,9 @@ Walls::Walls() {
   tops_m_.reserve(kMostColumns);
 }
 
-void Walls::find(Model& model, PlaneGrids& grids, const Vec3f& lidar,
+void Walls::find(Model& model, PlaneGrids& grids, const Sighting& sighting,
                  const RobustParameters& parameters) noexcept {
-  lidar_z_ = lidar.z();
+  lidar_z_ = sighting.lidar.z();
   model.segments.clear();
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     if (!model.planes[k].vertical || model.planes[k].edge_on) continue;
@@ -187,6 +188,7 @@ void Walls::find(Model& model, PlaneGrids& grids, const Vec3f& lidar,
       s.accepted = s.accepted && !is_rough(model, s) && !stands_free(model, grids, s);
     }
     reject_furniture(model);
+    take_second_look(model, grids, sighting);
   }
   for (const WallSegment& segment : model.segments) {
     if (!segment.accepted) continue;

@@ -20,8 +20,8 @@ class Walls {
  public:
   Walls();
 
-  // Fills model.segments and marks the cells of those that are accepted. lidar: where it is.
-  void find(Model& model, PlaneGrids& grids, const Vec3f& lidar,
+  // Fills model.segments and marks the cells of those that are accepted.
+  void find(Model& model, PlaneGrids& grids, const Sighting& sighting,
             const RobustParameters& parameters) noexcept;
 
  private:
