@@ -15,6 +15,10 @@ constexpr float kNearestM = 0.10F;  // before the wall; nearer, voxels hold wall
 constexpr float kFarthestM = 0.40F;
 constexpr float kOnSurfaceM = 0.06F;
 constexpr std::int32_t kReach = 2;  // cells: the distance of shelves
+// Of the eight cells around.
+constexpr int kMostlyHidden = 6;
+constexpr int kLeastBetween = 3;
+constexpr std::uint32_t kLargePlane = 112;  // surfels
 
 // near: the planes that the surfel is near. Most lie on structure of their own plane.
 [[nodiscard]] bool is_on_structure(const Model& model, const PlaneGrids& grids, std::size_t surfel,
@@ -70,6 +74,50 @@ void mark_before(const Model& model, PlaneGrids& grids, const Surfel& surfel,
   return any(row - kReach, row) && any(row + 1, row + 1 + kReach);
 }
 
+// Of the eight cells around.
+[[nodiscard]] int count_around(const PlaneGrids& grids, const PlaneGrid& grid, std::int32_t column,
+                               std::int32_t row, bool Cell::*so) noexcept {
+  int count = 0;
+  for (std::int32_t r = row - 1; r <= row + 1; ++r) {
+    for (std::int32_t c = column - 1; c <= column + 1; ++c) {
+      if ((r != row || c != column) && grid.holds(c, r) && grids.cell(grid, c, r).*so) ++count;
+    }
+  }
+  return count;
+}
+
+// A wall that was seen past the end of a bookcase has things square before it as well.
+[[nodiscard]] bool is_between_boards(const PlaneGrids& grids, const PlaneGrid& grid,
+                                     std::int32_t column, std::int32_t row) noexcept {
+  return is_between(grids, grid, column, row, &Cell::before) &&
+         (!grids.cell(grid, column, row).structure ||
+          is_between(grids, grid, column, row, &Cell::hidden));
+}
+
+// One cell alone that is between things may be a wall beside a lamp or a person; in small planes
+// there is not much else.
+[[nodiscard]] bool is_enclosed(const PlaneGrids& grids, const Plane& plane, const PlaneGrid& grid,
+                               std::int32_t column, std::int32_t row) noexcept {
+  const Cell& cell = grids.cell(grid, column, row);
+  const bool mostly_hidden = count_around(grids, grid, column, row, &Cell::hidden) >= kMostlyHidden;
+  if (mostly_hidden && cell.before && cell.hidden) return true;
+  return cell.between && (mostly_hidden || plane.surfels < kLargePlane ||
+                          count_around(grids, grid, column, row, &Cell::between) >= kLeastBetween);
+}
+
+template <class Visit>
+void for_each_cell_of_walls(const Model& model, PlaneGrids& grids, Visit&& visit) noexcept {
+  for (std::size_t k = 0; k < model.planes.size(); ++k) {
+    if (!model.planes[k].accepted || !model.planes[k].vertical) continue;
+    const PlaneGrid& grid = grids.grid(k);
+    for (std::int32_t row = 0; row < grid.rows; ++row) {
+      for (std::int32_t column = 0; column < grid.columns; ++column) {
+        visit(model.planes[k], grid, column, row);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void mark_backs(const Model& model, PlaneGrids& grids) noexcept {
@@ -86,18 +134,16 @@ void mark_backs(const Model& model, PlaneGrids& grids) noexcept {
       }
     }
   }
-  for (std::size_t k = 0; k < model.planes.size(); ++k) {
-    if (!model.planes[k].accepted || !model.planes[k].vertical) continue;
-    const PlaneGrid& grid = grids.grid(k);
-    for (std::int32_t row = 0; row < grid.rows; ++row) {
-      for (std::int32_t column = 0; column < grid.columns; ++column) {
-        Cell& cell = grids.cell(grid, column, row);
-        // A wall that was seen past the end of a bookcase has things square before it as well.
-        cell.enclosed = is_between(grids, grid, column, row, &Cell::before) &&
-                        (!cell.structure || is_between(grids, grid, column, row, &Cell::hidden));
-      }
-    }
-  }
+  for_each_cell_of_walls(
+      model, grids,
+      [&](const Plane&, const PlaneGrid& grid, std::int32_t column, std::int32_t row) {
+        grids.cell(grid, column, row).between = is_between_boards(grids, grid, column, row);
+      });
+  for_each_cell_of_walls(
+      model, grids,
+      [&](const Plane& plane, const PlaneGrid& grid, std::int32_t column, std::int32_t row) {
+        grids.cell(grid, column, row).enclosed = is_enclosed(grids, plane, grid, column, row);
+      });
 }
 
 }  // namespace convexcut::robust

@@ -39,7 +39,8 @@ struct Cell {
   bool structure = false;
   bool before = false;    // something is seen close before it
   bool hidden = false;    // the same, on the way of the lidar's rays to it
-  bool enclosed = false;  // that above and below: the back of a shelf
+  bool between = false;   // that above and below
+  bool enclosed = false;  // the back of a shelf
   bool visited = false;
 
   // Whether rays go through the plane here.
