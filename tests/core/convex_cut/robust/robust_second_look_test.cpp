@@ -5,6 +5,7 @@
 // rooms is measured by bench/accuracy.
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,14 @@ constexpr std::size_t kMostSurfels = 10'000;
 constexpr float kWallM = 3.0F;  // x of the face
 constexpr float kSpacingM = 0.1F;
 constexpr float kFloorM = -1.2F;
+
+// From the first on, up to the last and the roundings behind it.
+[[nodiscard]] std::vector<float> evenly(float first, float last, float step) {
+  std::vector<float> values;
+  const auto steps = static_cast<int>((last - first) / step + 1e-3F);
+  for (int i = 0; i <= steps; ++i) values.push_back(first + static_cast<float>(i) * step);
+  return values;
+}
 
 // A face in the plane x = 3, seen from the origin: y from −width/2 on.
 struct Face {
@@ -45,8 +54,8 @@ class SecondLook : public ::testing::Test {
     model_.surfels.push_back(surfel);
   }
   void build(const Face& face, bool accepted) {
-    for (float y = -face.width_m / 2; y < face.width_m / 2 + 1e-3F; y += kSpacingM) {
-      for (float z = face.bottom_m + kSpacingM / 2; z < face.top_m; z += kSpacingM) {
+    for (const float y : evenly(-face.width_m / 2, face.width_m / 2, kSpacingM)) {
+      for (const float z : evenly(face.bottom_m + kSpacingM / 2, face.top_m, kSpacingM)) {
         add({kWallM, y, z}, 0, face.points);
       }
     }
@@ -117,8 +126,8 @@ TEST_F(SecondLook, KeepsASliverThatIsTallerThanThings) {
 }
 
 TEST_F(SecondLook, RejectsWhatRaysHavePassedWhereItWasSeen) {
-  for (float y = -0.4F; y < 0.5F; y += 0.05F) {
-    for (float z = -0.5F; z < 0.2F; z += 0.05F) {
+  for (const float y : evenly(-0.4F, 0.5F, 0.05F)) {
+    for (const float z : evenly(-0.5F, 0.15F, 0.05F)) {
       add(Vec3f(kWallM, y, z) * 1.3F, kNoPlane, 20);
     }
   }
