@@ -135,16 +135,57 @@ TEST_F(SecondLook, RejectsWhatRaysHavePassedWhereItWasSeen) {
   EXPECT_FALSE(is_accepted());
 }
 
+// A window, a glass door.
+TEST_F(SecondLook, KeepsWhatRaysPassWhereItIsWideOrTall) {
+  for (const float y : evenly(-1.5F, 1.5F, 0.05F)) {
+    for (const float z : evenly(-0.5F, 0.5F, 0.05F)) {
+      add(Vec3f(kWallM, y, z) * 1.3F, kNoPlane, 20);
+    }
+  }
+  build({.width_m = 2.2F}, true);
+  face().closed = 39;  // as if it were of few cells: wide enough by itself
+  EXPECT_TRUE(is_accepted());
+  face().end_m = face().begin_m + 1.0F;
+  face().closed = 40;
+  EXPECT_TRUE(is_accepted());
+  face().closed = 39;
+  face().top_m = 1.2F;
+  EXPECT_TRUE(is_accepted());
+  face().top_m = 0.2F;
+  EXPECT_FALSE(is_accepted());
+}
+
 TEST_F(SecondLook, RejectsASmallFaceThatWasSeenAlongItself) {
   build({.width_m = 0.6F}, true);
   EXPECT_TRUE(is_accepted({.lidar = {1.0F, -3.0F, 0.0F}}));
   EXPECT_FALSE(is_accepted({.lidar = {2.8F, -3.0F, 0.0F}}));
 }
 
+TEST_F(SecondLook, KeepsALargeOrTallFaceThatWasSeenAlongItself) {
+  const Sighting along{.lidar = {2.8F, -3.0F, 0.0F}};
+  build({.width_m = 0.6F}, true);
+  face().closed = 30;
+  EXPECT_TRUE(is_accepted(along));
+  face().closed = 29;
+  face().top_m = 0.9F;
+  EXPECT_TRUE(is_accepted(along));
+  face().top_m = 0.2F;
+  EXPECT_FALSE(is_accepted(along));
+}
+
 TEST_F(SecondLook, RejectsAFewCellsThatWereSeenAskew) {
   build({.width_m = 0.2F, .top_m = -0.9F}, true);
   ASSERT_LE(face().closed, 4U);
   EXPECT_TRUE(is_accepted());
+  EXPECT_FALSE(is_accepted({.lidar = {0.0F, -3.0F, 0.0F}}));
+}
+
+TEST_F(SecondLook, KeepsAFewCellsThatHangOrWereSeenSquare) {
+  build({.width_m = 0.2F, .top_m = -0.9F}, true);
+  EXPECT_TRUE(is_accepted({.lidar = {0.0F, -1.4F, 0.0F}}));  // 0.906
+  face().bottom_m = -0.4F;
+  EXPECT_TRUE(is_accepted({.lidar = {0.0F, -3.0F, 0.0F}}));
+  face().bottom_m = -0.5F;
   EXPECT_FALSE(is_accepted({.lidar = {0.0F, -3.0F, 0.0F}}));
 }
 
@@ -159,6 +200,17 @@ TEST_F(SecondLook, KeepsTheWallBeneathAWindowThatWasSeenAskew) {
 TEST_F(SecondLook, RejectsASmallFaceOfFewPointsOnceItWasSeenOften) {
   build({.points = 1}, true);
   EXPECT_TRUE(is_accepted({.revolutions = 2}));
+  EXPECT_FALSE(is_accepted({.revolutions = 3}));
+}
+
+TEST_F(SecondLook, KeepsALargeOrTallFaceOfFewPoints) {
+  build({.points = 1}, true);
+  face().closed = 41;
+  EXPECT_TRUE(is_accepted({.revolutions = 3}));
+  face().closed = 40;
+  face().top_m = 1.5F;
+  EXPECT_TRUE(is_accepted({.revolutions = 3}));
+  face().top_m = 0.2F;
   EXPECT_FALSE(is_accepted({.revolutions = 3}));
 }
 
@@ -183,6 +235,13 @@ TEST_F(SecondLook, AcceptsAFaceTallerThanPeopleWithoutACeiling) {
   model_.ceiling_z = std::numeric_limits<float>::infinity();
   build({.width_m = 0.2F, .top_m = 1.8F}, false);
   EXPECT_TRUE(is_accepted());
+}
+
+TEST_F(SecondLook, DoesNotAcceptAFaceAsTallAsPeople) {
+  model_.ceiling_z = std::numeric_limits<float>::infinity();
+  build({.width_m = 0.2F, .top_m = 1.8F}, false);
+  face().top_m = 1.0F;
+  EXPECT_FALSE(is_accepted());
 }
 
 TEST_F(SecondLook, DoesNotAcceptAWideFaceWithoutACeiling) {
@@ -218,6 +277,22 @@ TEST_F(SecondLook, RejectsASmallPlaneBehindThings) {
   reject_what_is_behind(model_, grids_);
   EXPECT_FALSE(face().accepted);
   for_each_cell([](const Cell& cell) { EXPECT_FALSE(cell.structure); });
+}
+
+TEST_F(SecondLook, KeepsALargePlaneBehindThings) {
+  build({.width_m = 3.0F}, true);
+  for_each_cell([](Cell& cell) { cell.before = true; });
+  reject_what_is_behind(model_, grids_);
+  EXPECT_TRUE(face().accepted);
+}
+
+TEST_F(SecondLook, OneCellBetweenTwoThingsIsABackOfASmallPlane) {
+  put_before(0.1F, 0.05F);
+  put_before(0.1F, -0.45F);
+  build({.width_m = 0.6F}, true);
+  ASSERT_LT(model_.planes.front().surfels, 112U);
+  mark_backs(model_, grids_);
+  EXPECT_TRUE(is_enclosed(0.1F, -0.2F));
 }
 
 TEST_F(SecondLook, OneCellBetweenTwoThingsIsNoBackOfALargeWall) {
