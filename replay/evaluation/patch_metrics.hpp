@@ -11,10 +11,9 @@
 // What the paper leaves open is set here:
 // * A patch is real structure when more than half of its judged points (true label not `none`) are,
 //   otherwise it is an object's; people are objects. A patch without judged points is in no class.
-// * A patch of the input is kept when at least half of its points are in the output. Not: in
-// patches
-//   of the output. A smaller cloud has other patches, also where nothing is missing, and labels
-//   that are the truth would lose some: perfect labels have precision and recall 1 here.
+// * A patch of the input is kept when at least half of its points are in the output, whatever
+//   patches of the output they are in: a smaller cloud has others, also where nothing is missing.
+//   So labels that are the truth have precision and recall 1.
 // * A patch of the output is a *fragment* when more than half of its points are in no kept patch of
 //   the input: the output shows something that the classes above have counted as removed or lost,
 //   or never saw. An object's fragment counts as B; a fragment of structure counts as nothing.

@@ -19,11 +19,9 @@ constexpr float kSameHeightM = 0.1F;
 constexpr float kDeepestRecessM = 0.35F;  // of a window
 constexpr float kSillM = 0.3F;
 constexpr float kToCeilingM = 0.45F;
-constexpr float kTallerThanFurnitureM = 2.4F;
 constexpr float kLeastHeightM = 1.1F;  // of a narrow face: five cells
 constexpr float kLowM = 1.0F;          // over the floor: sides of desks, seen between other things
 constexpr float kLeastFlatHeightM = 0.9F;  // of a flat one: four
-constexpr float kFlat = 1.2F;              // spread², relative to the noise²
 constexpr float kFewSteps = 0.15F;
 constexpr float kTouchM = 0.5F;
 constexpr float kWidestSideM = 2.5F;
@@ -77,15 +75,6 @@ struct PlaneExtent {
   return top;
 }
 
-[[nodiscard]] Vec3f along_of(const Plane& plane) noexcept {
-  return Vec3f::UnitZ().cross(plane.normal).normalized();
-}
-
-// On the plane, at height 0 of its axis `up`.
-[[nodiscard]] Vec3f point_of(const Plane& plane, float along_m) noexcept {
-  return along_of(plane) * along_m - plane.normal * plane.offset;
-}
-
 // A pane in a recess of the front: it begins well above the front's bottom and does not rise above
 // its top.
 [[nodiscard]] bool is_pane_of(const Model& model, std::size_t front, std::size_t wall) noexcept {
@@ -111,7 +100,7 @@ struct PlaneExtent {
   const Plane& plane = model.planes[front.plane];
   const Plane& behind = model.planes[wall];
   if (!behind.vertical || behind.normal.dot(plane.normal) < kParallel) return false;
-  const float depth = behind.height_of(point_of(plane, (front.begin_m + front.end_m) / 2));
+  const float depth = behind.height_of(point_of(plane, front.middle_m()));
   if (depth < kFlushM || depth > kDeepestM) return false;
   const bool fixture = depth < kFixtureM;
   if (fixture && behind.surfels < plane.surfels) return false;
@@ -176,7 +165,7 @@ struct PlaneExtent {
 
 // As the faces of pillars are, and nothing passes it.
 [[nodiscard]] bool is_flat(const Model& model, const WallSegment& face) noexcept {
-  return face.open == 0 && face.spread2 <= kFlat * model.noise2 && face.steps <= kFewSteps;
+  return face.open == 0 && face.spread2 <= kFlatFace * model.noise2 && face.steps <= kFewSteps;
 }
 
 // Of a narrow face, by itself.

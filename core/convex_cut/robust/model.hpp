@@ -47,6 +47,11 @@ struct Plane {
   [[nodiscard]] float height_of(const Vec3f& p) const noexcept { return normal.dot(p) + offset; }
 };
 
+// Of a vertical plane: at a distance along it, where its axis `up` is 0.
+[[nodiscard]] inline Vec3f point_of(const Plane& plane, float along_m) noexcept {
+  return Vec3f::UnitZ().cross(plane.normal).normalized() * along_m - plane.normal * plane.offset;
+}
+
 // A run of columns of a vertical plane.
 struct WallSegment {
   std::size_t plane = 0;
@@ -62,22 +67,25 @@ struct WallSegment {
   bool furniture = false;                     // a wall is close behind
 
   [[nodiscard]] float width_m() const noexcept { return end_m - begin_m; }
+  [[nodiscard]] float middle_m() const noexcept { return (begin_m + end_m) / 2; }
 };
 
 // What is narrower may be a pillar, a person or the side of furniture.
+inline constexpr float kNarrowM = 0.8F;
+inline constexpr float kTallerThanFurnitureM = 2.4F;  // over the floor
+inline constexpr float kFlatFace = 1.2F;  // spread², relative to the noise²: no thicker than it
+
 // Where the lidar is, and how many revolutions the model is made of.
 struct Sighting {
   Vec3f lidar = Vec3f::Zero();
   std::uint32_t revolutions = 1;
 };
 
-inline constexpr float kNarrowM = 0.8F;
-
 struct Model {
   std::vector<Surfel> surfels;
   std::vector<Plane> planes;
-  std::vector<WallSegment> segments;
-  float noise2 = 4e-4F;  // m², of the sensor, as the largest planes show it
+  std::vector<WallSegment> segments;  // plane by plane
+  float noise2 = 4e-4F;               // m², of the sensor, as the largest planes show it
   float floor_z = -std::numeric_limits<float>::infinity();   // none known
   float ceiling_z = std::numeric_limits<float>::infinity();  // none known
 };

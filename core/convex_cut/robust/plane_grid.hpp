@@ -109,6 +109,15 @@ class PlaneGrids {
   [[nodiscard]] const Extent& extent(const PlaneGrid& grid, std::int32_t column) const noexcept {
     return extents_[grid.first_extent + static_cast<std::size_t>(column)];
   }
+  // Calls visit(cell) for those of a segment's columns, from the bottom up, column by column.
+  template <class Visit>
+  void for_each_cell(const WallSegment& segment, Visit&& visit) noexcept {
+    visit_cells(*this, segment, visit);
+  }
+  template <class Visit>
+  void for_each_cell(const WallSegment& segment, Visit&& visit) const noexcept {
+    visit_cells(*this, segment, visit);
+  }
   // Of the surfels that are evidence when the grids are built, in their order.
   [[nodiscard]] const Rays& rays() const noexcept { return rays_; }
   // Whether the cell at p, or one within `around` of it, is structure; not where it is enclosed.
@@ -152,6 +161,13 @@ class PlaneGrids {
   [[nodiscard]] float layer_near(std::size_t plane, const Vec3f& p) const noexcept;
 
  private:
+  template <class Grids, class Visit>
+  static void visit_cells(Grids& grids, const WallSegment& segment, Visit& visit) noexcept {
+    const PlaneGrid& grid = grids.grid(segment.plane);
+    for (std::int32_t column = segment.first; column < segment.end; ++column) {
+      for (std::int32_t row = 0; row < grid.rows; ++row) visit(grids.cell(grid, column, row));
+    }
+  }
   [[nodiscard]] static std::size_t index(const PlaneGrid& grid, std::int32_t column,
                                          std::int32_t row) noexcept {
     return grid.first_cell +

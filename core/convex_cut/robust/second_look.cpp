@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 namespace convexcut::robust {
 namespace {
 
 // Heights over the floor.
-constexpr float kTallerThanFurnitureM = 2.4F;
 constexpr float kTallerThanPeopleM = 2.3F;
 constexpr float kTallerThanBackrestsM = 2.05F;
 constexpr float kTallerThanStandsM = 2.6F;  // of a fair
@@ -18,7 +18,6 @@ constexpr float kFootM = 0.75F;
 constexpr float kHighestSliverM = 2.2F;
 
 constexpr float kOverLidarM = 0.9F;
-constexpr float kFlat = 1.2F;             // spread², relative to the noise²
 constexpr std::uint32_t kTallCells = 10;  // 2.5 m in one column
 
 constexpr float kSliverM = 0.13F;
@@ -40,41 +39,43 @@ struct InPlane {
   std::uint32_t closed = 0;
 };
 
-[[nodiscard]] InPlane in_plane_of(const Model& model, std::size_t plane) noexcept {
-  InPlane all;
-  for (const WallSegment& s : model.segments) {
-    if (s.plane != plane) continue;
-    all.widest_m = std::max(all.widest_m, s.width_m());
-    all.closed += s.closed;
+// visit(segment, all of its plane). They are there plane by plane.
+template <class Visit>
+void for_each_segment(std::span<WallSegment> segments, Visit&& visit) noexcept {
+  while (!segments.empty()) {
+    const std::size_t plane = segments.front().plane;
+    const auto end = std::find_if(segments.begin(), segments.end(),
+                                  [&](const WallSegment& s) { return s.plane != plane; });
+    const auto count = static_cast<std::size_t>(end - segments.begin());
+    InPlane all;
+    for (const WallSegment& s : segments.first(count)) {
+      all.widest_m = std::max(all.widest_m, s.width_m());
+      all.closed += s.closed;
+    }
+    for (WallSegment& s : segments.first(count)) visit(s, all);
+    segments = segments.subspan(count);
   }
-  return all;
 }
 
 // The mean of value(cell) over the segment's cells that were seen.
 template <class Value>
 [[nodiscard]] float mean_of_cells(const PlaneGrids& grids, const WallSegment& s,
                                   Value&& value) noexcept {
-  const PlaneGrid& grid = grids.grid(s.plane);
   float sum = 0.0F;
   std::int32_t seen = 0;
-  for (std::int32_t c = s.first; c < s.end; ++c) {
-    for (std::int32_t row = 0; row < grid.rows; ++row) {
-      const Cell& cell = grids.cell(grid, c, row);
-      if (cell.seen == 0) continue;
-      ++seen;
-      sum += static_cast<float>(value(cell));
-    }
-  }
+  grids.for_each_cell(s, [&](const Cell& cell) {
+    if (cell.seen == 0) return;
+    ++seen;
+    sum += static_cast<float>(value(cell));
+  });
   return sum / static_cast<float>(std::max(seen, 1));
 }
 
 // Of the way from the lidar to its middle: 1 square to it, 0 along it.
-[[nodiscard]] float squareness(const Model& model, const PlaneGrids& grids, const WallSegment& s,
+[[nodiscard]] float squareness(const Model& model, const WallSegment& s,
                                const Vec3f& lidar) noexcept {
   const Plane& plane = model.planes[s.plane];
-  const Vec3f middle =
-      grids.grid(s.plane).along * ((s.begin_m + s.end_m) / 2) - plane.normal * plane.offset;
-  const float range_m = (middle - lidar).head<2>().norm();
+  const float range_m = (point_of(plane, s.middle_m()) - lidar).head<2>().norm();
   return std::abs(plane.height_of(lidar)) / std::max(range_m, kCellM);
 }
 
@@ -85,7 +86,7 @@ template <class Value>
   const float top_m = s.top_m - model.floor_z;
   if (all.widest_m < kNarrowM && s.closed >= kTallCells && top_m > kTallerThanPeopleM) return true;
   return !std::isinf(model.ceiling_z) && top_m > kTallerThanFurnitureM &&
-         s.spread2 <= kFlat * model.noise2;
+         s.spread2 <= kFlatFace * model.noise2;
 }
 
 // What was there and has gone on.
@@ -116,7 +117,7 @@ template <class Value>
       is_sparse(grids, s, all)) {
     return true;
   }
-  const float square = squareness(model, grids, s, sighting.lidar);
+  const float square = squareness(model, s, sighting.lidar);
   if (top_m < kTallerThanBackrestsM && square < kAlongItself && all.closed < kSmallAlongCells) {
     return true;
   }
@@ -128,24 +129,20 @@ template <class Value>
 
 void take_second_look(Model& model, const PlaneGrids& grids, const Sighting& sighting) noexcept {
   if (std::isinf(model.floor_z)) return;
-  for (WallSegment& s : model.segments) {
-    const InPlane all = in_plane_of(model, s.plane);
+  for_each_segment(model.segments, [&](WallSegment& s, const InPlane& all) {
     s.accepted = s.accepted ? !is_doubtful(model, grids, s, all, sighting)
                             : rises_above_all(model, s, all, sighting.lidar);
-  }
+  });
 }
 
 void reject_what_is_behind(Model& model, PlaneGrids& grids) noexcept {
-  for (WallSegment& s : model.segments) {
-    if (!s.accepted || in_plane_of(model, s.plane).widest_m >= kSmallPlaneM) continue;
+  for_each_segment(model.segments, [&](WallSegment& s, const InPlane& all) {
+    if (!s.accepted || all.widest_m >= kSmallPlaneM) return;
     const float behind = mean_of_cells(grids, s, [](const Cell& cell) { return cell.before; });
-    if (behind <= kMostBehind) continue;
+    if (behind <= kMostBehind) return;
     s.accepted = false;
-    const PlaneGrid& grid = grids.grid(s.plane);
-    for (std::int32_t c = s.first; c < s.end; ++c) {
-      for (std::int32_t row = 0; row < grid.rows; ++row) grids.cell(grid, c, row).structure = false;
-    }
-  }
+    grids.for_each_cell(s, [](Cell& cell) { cell.structure = false; });
+  });
 }
 
 }  // namespace convexcut::robust

@@ -56,17 +56,14 @@ constexpr float kSeenOverLow = 0.05F;      // the same of what ends below the li
   return pairs < kLeastPairs ? 0.0F : static_cast<float>(steps) / static_cast<float>(pairs);
 }
 
-// Of the points on columns [first, end), about the plane.
-[[nodiscard]] float spread2_of(const PlaneGrids& grids, const PlaneGrid& grid, std::int32_t first,
-                               std::int32_t end) noexcept {
+// Of the points on a segment, about the plane.
+[[nodiscard]] float spread2_of(const PlaneGrids& grids, const WallSegment& segment) noexcept {
   float squares_m2 = 0.0F;
   std::int32_t points = 0;
-  for (std::int32_t c = first; c < end; ++c) {
-    for (std::int32_t row = 0; row < grid.rows; ++row) {
-      squares_m2 += grids.cell(grid, c, row).square_sum_m2;
-      points += grids.cell(grid, c, row).points;
-    }
-  }
+  grids.for_each_cell(segment, [&](const Cell& cell) {
+    squares_m2 += cell.square_sum_m2;
+    points += cell.points;
+  });
   return squares_m2 / static_cast<float>(std::max(points, 1));
 }
 
@@ -193,13 +190,9 @@ void Walls::find(Model& model, PlaneGrids& grids, const Sighting& sighting,
   for (const WallSegment& segment : model.segments) {
     if (!segment.accepted) continue;
     model.planes[segment.plane].accepted = true;
-    const PlaneGrid& grid = grids.grid(segment.plane);
-    for (std::int32_t column = segment.first; column < segment.end; ++column) {
-      for (std::int32_t row = 0; row < grid.rows; ++row) {
-        Cell& cell = grids.cell(grid, column, row);
-        if (cell.seen > 0) cell.structure = true;
-      }
-    }
+    grids.for_each_cell(segment, [](Cell& cell) {
+      if (cell.seen > 0) cell.structure = true;
+    });
   }
 }
 
@@ -351,7 +344,7 @@ void Walls::add_segment(Model& model, const PlaneGrids& grids, std::size_t plane
   }
   segment.top_m = top_of(tops_m_);
   segment.steps = share_of_steps(grids, grid, first, end);
-  segment.spread2 = spread2_of(grids, grid, first, end);
+  segment.spread2 = spread2_of(grids, segment);
   model.segments.push_back(segment);
 }
 
