@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -58,6 +59,13 @@ void VcanInterface::remove() {
     EXPECT_TRUE(ip("link del dev " + name_));
   }
   there_ = false;
+}
+
+std::uint64_t VcanInterface::lost_before_sockets() const {
+  std::ifstream counter("/sys/class/net/" + name_ + "/statistics/rx_dropped");
+  std::uint64_t lost = 0;
+  EXPECT_TRUE(counter >> lost);
+  return lost;
 }
 
 BusNode::BusNode(const VcanInterface& interface)

@@ -32,6 +32,8 @@ class VcanInterface {
   void up();
   void down();
   void remove();
+  // Frames that the kernel lost on their way from the interface to any socket: a busy host's backlog was full.
+  [[nodiscard]] std::uint64_t lost_before_sockets() const;
 
  private:
   std::string name_;
