@@ -29,8 +29,8 @@ constexpr float kSameTopM = 0.6F;
 constexpr float kRounder = 1.7F;   // spread², relative to the noise²
 constexpr float kHangingM = 1.6F;  // over the floor
 constexpr float kLeastBeamM = 1.6F;
-constexpr float kTallestLampM = 1.0F;
-constexpr int kPasses = 2;  // fronts before fronts
+constexpr float kTallestLampM = 1.1F;  // four cells
+constexpr int kPasses = 2;             // fronts before fronts
 
 // Whether depths change from cell to cell, as they do in clothes. spread: the spread² about the
 // plane, relative to the noise²; steps: as WallSegment has them.
@@ -222,6 +222,7 @@ void reject_furniture(Model& model) noexcept {
         s.width_m() < kLeastBeamM && s.top_m - s.bottom_m < kTallestLampM &&
         !is_on_wider(model, s)) {
       s.accepted = false;
+      s.furniture = s.width_m() < kNarrowM;
     }
   }
   for (WallSegment& s : model.segments) {

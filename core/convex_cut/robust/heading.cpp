@@ -50,7 +50,7 @@ constexpr int kRefinements = 2;
 Mat3f wall_correction(const VoxelMap& revolution, const Mat3f& r_upright_from_level) noexcept {
   const auto for_each_angle = [&](auto&& visit) {
     for (const Voxel& voxel : revolution.voxels()) {
-      if (voxel.shape != Shape::plane) continue;
+      if (!has_normal(voxel.shape)) continue;
       const Vec3f normal = r_upright_from_level * voxel.direction;
       if (std::abs(normal.z()) <= kUpright) visit(square_angle(normal));
     }

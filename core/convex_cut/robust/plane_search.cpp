@@ -309,7 +309,7 @@ void PlaneSearch::take_left(Model& model) noexcept {
     to[C::kU][count] = surfel.direction.x();
     to[C::kV][count] = surfel.direction.y();
     to[C::kW][count] = surfel.direction.z();
-    to[C::kBar][count] = surfel.shape == Shape::plane ? kNormalAgrees : -kLineAgrees;
+    to[C::kBar][count] = has_normal(surfel.shape) ? kNormalAgrees : -kLineAgrees;
     to[C::kWeight][count] = std::min(static_cast<float>(surfel.points), kMostWeight);
     left_.index[count++] = static_cast<std::uint32_t>(i);
   }

@@ -14,6 +14,7 @@ constexpr float kTallerThanPeopleM = 2.3F;
 constexpr float kTallerThanBackrestsM = 2.05F;
 constexpr float kTallerThanStandsM = 2.6F;  // of a fair
 constexpr float kHighestSillM = 1.4F;
+constexpr float kLowM = 1.0F;
 constexpr float kFootM = 0.75F;
 constexpr float kHighestSliverM = 2.2F;
 
@@ -24,7 +25,8 @@ constexpr float kSliverM = 0.13F;
 constexpr float kLeastGone = 0.25F;  // share of cells
 constexpr float kWidestGoneM = 2.0F;
 constexpr std::uint32_t kSmallCells = 40;  // of a plane, in all
-constexpr float kAlongItself = 0.2F;       // squareness
+constexpr std::uint32_t kSmallLowCells = 24;
+constexpr float kAlongItself = 0.2F;  // squareness
 constexpr std::uint32_t kSmallAlongCells = 30;
 constexpr float kSquare = 0.9F;
 constexpr std::uint32_t kFewCells = 4;
@@ -32,6 +34,8 @@ constexpr float kSparse = 8.0F;                 // points of a cell
 constexpr std::uint32_t kLeastRevolutions = 3;  // of a sensor at 20 Hz, each has half as many
 constexpr float kSmallPlaneM = 3.0F;
 constexpr float kMostBehind = 0.5F;  // share of cells
+constexpr std::uint32_t kSmallBehindCells = 28;
+constexpr float kMostBehindOfSmall = 0.375F;
 
 // Of all segments in one plane.
 struct InPlane {
@@ -112,6 +116,10 @@ template <class Value>
                                const InPlane& all, const Sighting& sighting) noexcept {
   const float top_m = s.top_m - model.floor_z;
   if (top_m < kHighestSliverM && all.widest_m <= kSliverM) return true;
+  if (top_m < kLowM && all.closed > kFewCells && all.closed <= kSmallLowCells &&
+      !may_have_sill(s, top_m)) {
+    return true;
+  }
   if (top_m < kTallerThanPeopleM && is_gone(grids, s, all)) return true;
   if (sighting.revolutions >= kLeastRevolutions && top_m < kTallerThanStandsM &&
       is_sparse(grids, s, all)) {
@@ -139,7 +147,9 @@ void reject_what_is_behind(Model& model, PlaneGrids& grids) noexcept {
   for_each_segment(model.segments, [&](WallSegment& s, const InPlane& all) {
     if (!s.accepted || all.widest_m >= kSmallPlaneM) return;
     const float behind = mean_of_cells(grids, s, [](const Cell& cell) { return cell.before; });
-    if (behind <= kMostBehind) return;
+    const bool small =
+        all.closed <= kSmallBehindCells && s.top_m - model.floor_z < kTallerThanFurnitureM;
+    if (behind <= (small ? kMostBehindOfSmall : kMostBehind)) return;
     s.accepted = false;
     grids.for_each_cell(s, [](Cell& cell) { cell.structure = false; });
   });

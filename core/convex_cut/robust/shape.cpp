@@ -3,13 +3,37 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace convexcut::robust {
 namespace {
 
 // A voxel alone has a normal only when a surface fills it.
 constexpr std::int32_t kManyPoints = 12;
+constexpr float kUpright = 0.35F;  // |z| of a normal
+
+// Of a neighbourhood, where more than one surface is in all of it: the edge of a pillar, a sill.
+enum class Part : std::uint8_t {
+  alone,   // the voxel
+  upright  // that, the one below it and the one above it
+};
+
+[[nodiscard]] bool is_in(Part part, std::uint8_t step) noexcept {
+  const Lattice lattice = Neighbourhood::step_of(step);
+  return lattice[0] == 0 && lattice[1] == 0 && (part == Part::upright || lattice[2] == 0);
+}
+
+[[nodiscard]] Around part_of(const Around& around, Part part) noexcept {
+  Around found;
+  for (std::size_t k = 0; k < around.count; ++k) {
+    if (!is_in(part, around.step[k])) continue;
+    found.moments[found.count] = around.moments[k];
+    found.step[found.count++] = around.step[k];
+  }
+  return found;
+}
 
 // Looks all of them up before any is used, so that they come into the cache together.
 void collect(const VoxelMap& map, VoxelKey key, Around& found) noexcept {
@@ -27,14 +51,42 @@ void collect(const VoxelMap& map, VoxelKey key, Around& found) noexcept {
   for (std::size_t k = 0; k < count; ++k) __builtin_prefetch(found.moments[k]);
 }
 
-void set_shape(Voxel& voxel, const ShapeColumns& shapes, std::size_t i) noexcept {
-  voxel.shape = shapes.is_plane[i] != 0  ? Shape::plane
+// plane: what one is called.
+void set_shape(Voxel& voxel, const ShapeColumns& shapes, std::size_t i,
+               Shape plane = Shape::plane) noexcept {
+  voxel.shape = shapes.is_plane[i] != 0  ? plane
                 : shapes.is_line[i] != 0 ? Shape::line
                                          : Shape::other;
   if (voxel.shape == Shape::other) {
     voxel.direction = Vec3f::Zero();
   } else {
     voxel.direction = Vec3f(shapes.x[i], shapes.y[i], shapes.z[i]);
+  }
+}
+
+// Of the voxels that are no plane yet.
+void take_shapes_of(Part part, VoxelMap& map, std::span<const std::uint32_t> voxels,
+                    std::span<const Around> around) noexcept {
+  std::array<Around, kShapesAtOnce> parts;
+  std::array<std::uint32_t, kShapesAtOnce> of;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const Voxel& voxel = map.voxels()[voxels[i]];
+    if (voxel.shape == Shape::plane) continue;
+    if (part == Part::alone && voxel.moments.count <= kManyPoints) continue;
+    parts[count] = part_of(around[i], part);
+    of[count++] = voxels[i];
+  }
+  if (count == 0) return;
+  ShapeColumns shapes;
+  take_shapes(std::span(parts).first(count), shapes);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (shapes.is_plane[k] == 0) continue;
+    if (part == Part::alone) {
+      set_shape(map.voxels()[of[k]], shapes, k);
+    } else if (std::abs(shapes.z[k]) < kUpright) {
+      set_shape(map.voxels()[of[k]], shapes, k, Shape::strip);
+    }
   }
 }
 
@@ -45,25 +97,11 @@ void take_shapes(VoxelMap& map, std::span<const std::uint32_t> voxels) noexcept 
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     collect(map, map.voxels()[voxels[i]].key, around[i]);
   }
-  ShapeColumns wide;
-  take_shapes(std::span(around).first(voxels.size()), wide);
-  std::array<std::size_t, kShapesAtOnce> alone;
-  std::size_t alone_count = 0;
-  for (std::size_t i = 0; i < voxels.size(); ++i) {
-    Voxel& voxel = map.voxels()[voxels[i]];
-    set_shape(voxel, wide, i);
-    if (voxel.shape == Shape::plane || voxel.moments.count <= kManyPoints) continue;
-    around[alone_count].moments[0] = &voxel.moments;
-    around[alone_count].step[0] = Around::kMiddle;
-    around[alone_count].count = 1;
-    alone[alone_count++] = i;
-  }
-  if (alone_count == 0) return;
-  ShapeColumns narrow;
-  take_shapes(std::span(around).first(alone_count), narrow);
-  for (std::size_t k = 0; k < alone_count; ++k) {
-    if (narrow.is_plane[k] != 0) set_shape(map.voxels()[voxels[alone[k]]], narrow, k);
-  }
+  ShapeColumns shapes;
+  take_shapes(std::span(around).first(voxels.size()), shapes);
+  for (std::size_t i = 0; i < voxels.size(); ++i) set_shape(map.voxels()[voxels[i]], shapes, i);
+  take_shapes_of(Part::alone, map, voxels, around);
+  take_shapes_of(Part::upright, map, voxels, around);
 }
 
 }  // namespace convexcut::robust

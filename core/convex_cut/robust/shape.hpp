@@ -15,6 +15,7 @@ inline constexpr std::int32_t kSupport = 3;
 
 // Sets shape and direction of at most kShapesAtOnce voxels, by their indices: those of the points
 // of a voxel and its neighbours, wide enough for two rings of the lidar, and a precise normal.
+// Where these are no plane, those of the voxel alone; then of it with those above and below it.
 void take_shapes(VoxelMap& map, std::span<const std::uint32_t> voxels) noexcept;
 
 }  // namespace convexcut::robust

@@ -17,7 +17,9 @@ namespace {
 
 constexpr float kEdgeOnM = 0.10F;          // nearer to the lidar a plane is seen along itself
 constexpr std::size_t kLargestPlanes = 4;  // that show the sensor's noise
-constexpr double kLeastCosine2 = 0.05;     // of the beams on a plane: flatter tells little
+// Strips have points of what is beside them; small planes may have little else.
+constexpr std::uint32_t kLargeSurfels = 60;
+constexpr double kLeastCosine2 = 0.05;  // of the beams on a plane: flatter tells little
 
 // Sums over the points of a plane.
 struct Sums {
@@ -67,10 +69,11 @@ void measure_spread(Model& model, std::span<const Voxel> voxels) noexcept {
     const float cosine = plane.normal.dot((surfel.mean - surfel.origin).normalized());
     surfel.spread2 = spread2_across(voxels[i], plane) + height * height;
     Sums& of_plane = sums.at(k);
+    of_plane.edge_on += std::abs(plane.height_of(surfel.origin)) < kEdgeOnM ? 1U : 0U;
+    if (surfel.shape == Shape::strip && plane.surfels >= kLargeSurfels) continue;
     of_plane.points += surfel.points;
     of_plane.squares += static_cast<double>(surfel.points) * static_cast<double>(surfel.spread2);
     of_plane.cosines2 += static_cast<double>(surfel.points) * static_cast<double>(cosine * cosine);
-    of_plane.edge_on += std::abs(plane.height_of(surfel.origin)) < kEdgeOnM ? 1U : 0U;
   }
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     const Sums& of_plane = sums.at(k);

@@ -32,7 +32,7 @@ constexpr float kClearlyMore = 1.1F;
 Mat3f upright_correction(const VoxelMap& revolution) noexcept {
   const auto for_each_normal = [&](auto&& visit) {
     for (const Voxel& voxel : revolution.voxels()) {
-      if (voxel.shape == Shape::plane) visit(voxel.direction);
+      if (has_normal(voxel.shape)) visit(voxel.direction);
     }
   };
   const auto explained = [&](const Vec3f& up) {

@@ -58,7 +58,12 @@ enum class Shape : std::uint8_t {
   other,  // too few points, or none of the two
   line,   // one ring of the lidar on a surface: the direction lies in the surface
   plane,  // the direction is the surface's normal
+  strip,  // so it is, but of the voxel with those above and below it: other surfaces are beside
 };
+
+[[nodiscard]] constexpr bool has_normal(Shape shape) noexcept {
+  return shape == Shape::plane || shape == Shape::strip;
+}
 
 struct Voxel {
   VoxelKey key = 0;

@@ -30,10 +30,11 @@ constexpr std::int32_t kLeastPairs = 7;
 constexpr std::int32_t kBeside = 2;
 constexpr float kMarginM = 0.2F;  // to floor and ceiling
 constexpr std::uint32_t kLeastCells = 4;
-constexpr std::uint32_t kLargeCells = 40;  // of a wall, in all
-constexpr std::int32_t kLeastSeen = 3;     // of a closed column among open ones
-constexpr float kSeenOver = 0.15F;         // share of a run, for all of it that is no higher
-constexpr float kSeenOverLow = 0.05F;      // the same of what ends below the lidar
+constexpr std::uint32_t kLargeCells = 40;       // of a wall, in all
+constexpr std::int32_t kLeastAroundWindow = 4;  // cells of a column
+constexpr std::int32_t kLeastSeen = 3;          // of a closed column among open ones
+constexpr float kSeenOver = 0.15F;              // share of a run, for all of it that is no higher
+constexpr float kSeenOverLow = 0.05F;           // the same of what ends below the lidar
 
 // The share of neighbouring cells of columns [first, end) whose means differ: great where depths
 // change from book to book, small on a wall with a picture on it. 0 where too few are known.
@@ -216,20 +217,26 @@ void Walls::take_columns(const Model& model, const PlaneGrids& grids, std::size_
         column.open_above = cell.seen == 0;
       }
     }
-    if (through >= column.open || hangs_from_ceiling(model, grids, plane, c, column))
+    // What ends within a cell does not let through what passes over it.
+    const bool ends_within =
+        through == 1 && column.open_above && grids.cell(grid, c, column.top).passed >= kPassed;
+    if ((through >= column.open && !ends_within) ||
+        goes_up_to_ceiling(model, grids, plane, c, column))
       column.open = 0;
     columns_.push_back(column);
   }
 }
 
-// What reaches up to the ceiling and is passed below only: a beam, a lintel.
-bool Walls::hangs_from_ceiling(const Model& model, const PlaneGrids& grids, std::size_t plane,
+// What reaches up to the ceiling and is passed below only: a beam, a lintel. Or is seen over all
+// that is passed, and in a metre of its height: a wall with a window.
+bool Walls::goes_up_to_ceiling(const Model& model, const PlaneGrids& grids, std::size_t plane,
                                std::int32_t c, const Column& column) noexcept {
   const PlaneGrid& grid = grids.grid(plane);
   if (column.seen == 0 || std::isinf(model.ceiling_z) ||
       grid.centre(model.planes[plane], c, column.top).z() < model.ceiling_z - kToCeilingM) {
     return false;
   }
+  if (column.seen >= kLeastAroundWindow && !column.open_above) return true;
   for (std::int32_t row = column.bottom; row < grid.rows; ++row) {
     const bool is_above_ceiling =
         grid.centre(model.planes[plane], c, row).z() > model.ceiling_z - kMarginM;

@@ -32,7 +32,7 @@ class Walls {
     bool open_above = false;  // the highest of these is above the top
   };
   void take_columns(const Model& model, const PlaneGrids& grids, std::size_t plane) noexcept;
-  [[nodiscard]] static bool hangs_from_ceiling(const Model& model, const PlaneGrids& grids,
+  [[nodiscard]] static bool goes_up_to_ceiling(const Model& model, const PlaneGrids& grids,
                                                std::size_t plane, std::int32_t c,
                                                const Column& column) noexcept;
   void open_below_top(const Model& model, const PlaneGrids& grids, std::size_t plane,

@@ -32,7 +32,7 @@ class VcanInterface {
   void up();
   void down();
   void remove();
-  // Frames that the kernel lost on their way from the interface to any socket: a busy host's backlog was full.
+  // Frames that the kernel lost before any socket: the backlog of a busy host was full.
   [[nodiscard]] std::uint64_t lost_before_sockets() const;
 
  private:

@@ -274,6 +274,30 @@ TEST(RobustRules, KeepsAShutDoorBesideABoardAndRemovesTheBoard) {
   }
 }
 
+// Rays go through most of its columns, to a wall farther back, but over them it goes up to the
+// ceiling.
+TEST(RobustRules, KeepsAWallThatIsMostlyWindows) {
+  BoxRoom room;
+  room.walls = {{-4.0, -3.0, -1.2}, {6.0, 3.0, 1.6}};
+  room.boxes = {{{3.0, -3.0, -1.2}, {3.1, 3.0, -0.3}}, {{3.0, -3.0, 0.6}, {3.1, 3.0, 1.6}}};
+  const Kept kept = cut(room, {.tilt_deg = 30.0}, 18);
+  EXPECT_GT(kept.share_of(0), kKept);
+  EXPECT_GT(kept.share_of(1), kKept);
+}
+
+// Along a corridor, in the first revolution: rays get over it to the ceiling, through the upper
+// part of the cells that its top is in, as they would through glass.
+TEST(RobustRules, RemovesACupboardThatEndsWithinACell) {
+  BoxRoom room;
+  room.walls = {{-8.0, -1.1, -1.3}, {8.0, 1.1, 1.3}};
+  for (const double top_m : {0.65, 0.7}) {
+    room.boxes = {{{-0.85, -1.1, -1.3}, {0.85, -0.6, top_m}}};
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      EXPECT_LT(cut(room, {.tilt_deg = 60.0, .seed = seed}).share_of(0), kRemoved) << seed;
+    }
+  }
+}
+
 // They cover its upper half: the plane that fits both leans by more than a degree.
 TEST(RobustRules, AWallBelowBoardsIsUpright) {
   BoxRoom room;

@@ -197,6 +197,21 @@ TEST_F(SecondLook, KeepsTheWallBeneathAWindowThatWasSeenAskew) {
   EXPECT_FALSE(is_accepted({.lidar = {0.0F, -3.0F, 0.0F}}));
 }
 
+TEST_F(SecondLook, RejectsASmallFaceThatIsLow) {
+  build({.width_m = 1.0F, .top_m = -0.25F}, true);
+  ASSERT_GT(face().closed, 4U);
+  face().closed = 25;
+  EXPECT_TRUE(is_accepted());
+  face().closed = 24;
+  face().top_m = kFloorM + 1.01F;
+  EXPECT_TRUE(is_accepted());
+  face().top_m = kFloorM + 0.99F;
+  face().open = 25;  // beneath a window
+  EXPECT_TRUE(is_accepted());
+  face().open = 24;
+  EXPECT_FALSE(is_accepted());
+}
+
 TEST_F(SecondLook, RejectsASmallFaceOfFewPointsOnceItWasSeenOften) {
   build({.points = 1}, true);
   EXPECT_TRUE(is_accepted({.revolutions = 2}));
@@ -277,6 +292,29 @@ TEST_F(SecondLook, RejectsASmallPlaneBehindThings) {
   reject_what_is_behind(model_, grids_);
   EXPECT_FALSE(face().accepted);
   for_each_cell([](const Cell& cell) { EXPECT_FALSE(cell.structure); });
+}
+
+TEST_F(SecondLook, RejectsAFewCellsBehindThingsSooner) {
+  build({.width_m = 0.5F}, true);
+  ASSERT_LE(face().closed, 28U);
+  std::uint32_t cells = 0;
+  const auto put_before_cells = [&](std::uint32_t most) {
+    cells = most;
+    for_each_cell([&](Cell& cell) {
+      cell.before = cell.seen > 0 && cells > 0;
+      cells -= cell.before ? 1 : 0;
+    });
+  };
+  put_before_cells(3 * face().closed / 8);
+  reject_what_is_behind(model_, grids_);
+  EXPECT_TRUE(face().accepted);
+  put_before_cells(3 * face().closed / 8 + 1);
+  face().top_m = kFloorM + 2.4F;
+  reject_what_is_behind(model_, grids_);
+  EXPECT_TRUE(face().accepted);
+  face().top_m = kFloorM + 2.3F;
+  reject_what_is_behind(model_, grids_);
+  EXPECT_FALSE(face().accepted);
 }
 
 TEST_F(SecondLook, KeepsALargePlaneBehindThings) {
