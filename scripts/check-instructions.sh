@@ -10,7 +10,7 @@ declare -A bound=(
   [level]=28
   [label]=335
   [stream]=799
-  [robust]=1557
+  [robust]=1768
 )
 
 # instructions STAGE ROUNDS

@@ -20,19 +20,19 @@ enum class Part : std::uint8_t {
   upright  // that, the one below it and the one above it
 };
 
-[[nodiscard]] bool is_in(Part part, std::uint8_t step) noexcept {
-  const Lattice lattice = Neighbourhood::step_of(step);
-  return lattice[0] == 0 && lattice[1] == 0 && (part == Part::upright || lattice[2] == 0);
-}
+// The steps along z come first, so that these three follow each other.
+static_assert(Neighbourhood::step_of(Around::kMiddle - 1) == Lattice{0, 0, -1} &&
+              Neighbourhood::step_of(Around::kMiddle + 1) == Lattice{0, 0, 1});
 
-[[nodiscard]] Around part_of(const Around& around, Part part) noexcept {
-  Around found;
-  for (std::size_t k = 0; k < around.count; ++k) {
-    if (!is_in(part, around.step[k])) continue;
+void take_part(const Around& around, Part part, Around& found) noexcept {
+  const std::uint8_t reach = part == Part::upright ? 1 : 0;
+  std::size_t k = 0;
+  while (around.step[k] + reach < Around::kMiddle) ++k;
+  found.count = 0;
+  for (; k < around.count && around.step[k] <= Around::kMiddle + reach; ++k) {
     found.moments[found.count] = around.moments[k];
     found.step[found.count++] = around.step[k];
   }
-  return found;
 }
 
 // Looks all of them up before any is used, so that they come into the cache together.
@@ -74,7 +74,7 @@ void take_shapes_of(Part part, VoxelMap& map, std::span<const std::uint32_t> vox
     const Voxel& voxel = map.voxels()[voxels[i]];
     if (voxel.shape == Shape::plane) continue;
     if (part == Part::alone && voxel.moments.count <= kManyPoints) continue;
-    parts[count] = part_of(around[i], part);
+    take_part(around[i], part, parts[count]);
     of[count++] = voxels[i];
   }
   if (count == 0) return;
