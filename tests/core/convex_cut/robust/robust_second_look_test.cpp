@@ -100,6 +100,13 @@ class SecondLook : public ::testing::Test {
     constexpr float kDepthM = 0.2F;
     add(Vec3f(kWallM, y, z) * ((kWallM - kDepthM) / kWallM), kNoPlane, 20);
   }
+  // As many of its cells have something close before them.
+  void put_before_cells(std::uint32_t cells) {
+    for_each_cell([&](Cell& cell) {
+      cell.before = cell.seen > 0 && cells > 0;
+      cells -= cell.before ? 1 : 0;
+    });
+  }
   [[nodiscard]] bool is_enclosed(float y, float z) {
     const PlaneGrid& grid = grids_.grid(0);
     const Vec3f p(kWallM, y, z);
@@ -279,12 +286,6 @@ TEST_F(SecondLook, DecidesNothingWithoutAFloor) {
 
 TEST_F(SecondLook, RejectsASmallPlaneBehindThings) {
   build({}, true);
-  const auto put_before_cells = [&](std::uint32_t cells) {
-    for_each_cell([&](Cell& cell) {
-      cell.before = cell.seen > 0 && cells > 0;
-      cells -= cell.before ? 1 : 0;
-    });
-  };
   put_before_cells(face().closed / 2);
   reject_what_is_behind(model_, grids_);
   EXPECT_TRUE(face().accepted);
@@ -297,14 +298,6 @@ TEST_F(SecondLook, RejectsASmallPlaneBehindThings) {
 TEST_F(SecondLook, RejectsAFewCellsBehindThingsSooner) {
   build({.width_m = 0.5F}, true);
   ASSERT_LE(face().closed, 28U);
-  std::uint32_t cells = 0;
-  const auto put_before_cells = [&](std::uint32_t most) {
-    cells = most;
-    for_each_cell([&](Cell& cell) {
-      cell.before = cell.seen > 0 && cells > 0;
-      cells -= cell.before ? 1 : 0;
-    });
-  };
   put_before_cells(3 * face().closed / 8);
   reject_what_is_behind(model_, grids_);
   EXPECT_TRUE(face().accepted);

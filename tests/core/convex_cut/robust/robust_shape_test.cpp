@@ -2,9 +2,11 @@
 //
 // Shapes of voxels where surfaces meet. That their principal axes are right is
 // robust_window_test's.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -32,12 +34,13 @@ class RobustShape : public ::testing::Test {
     map_.voxels()[static_cast<std::size_t>(index)].moments.add_mm(
         mm(from_centre.x()), mm(from_centre.y()), mm(from_centre.z()));
   }
-  // Upright, from a corner along an axis, six or nine points in a voxel: too few for it alone.
-  void add_face(const Vec3f& corner, const Vec3f& along) {
+  // From a corner along two axes, the long one second; six or nine points in a voxel: too few for
+  // it alone.
+  void add_face(const Vec3f& corner, const Vec3f& along, const Vec3f& up = Vec3f::UnitZ()) {
     for (int i = 0; i < kAlong; ++i) {
       for (int k = 0; k < kHeight; ++k) {
         const auto mm = [](int n) { return 1e-3F * static_cast<float>(n * kSpacingMm); };
-        add(corner + along * mm(i) + Vec3f::UnitZ() * mm(k));
+        add(corner + along * mm(i) + up * mm(k));
       }
     }
   }
@@ -72,16 +75,9 @@ TEST_F(RobustShape, AFaceBesideAnEdgeIsAStripWithItsOwnNormal) {
 }
 
 TEST_F(RobustShape, OnlyUprightSurfacesAreStrips) {
-  const auto lay = [&](const Vec3f& along) {  // a step: a tread and its riser, upside down
-    for (int i = 0; i < kAlong; ++i) {
-      for (int k = 0; k < kHeight; ++k) {
-        const auto mm = [](int n) { return 1e-3F * static_cast<float>(n * kSpacingMm); };
-        add(edge() + along * mm(i) + Vec3f::UnitX() * mm(k));
-      }
-    }
-  };
-  lay(Vec3f::UnitY());
-  lay(Vec3f::UnitZ());
+  // A tread and its riser.
+  add_face(edge(), Vec3f::UnitY(), Vec3f::UnitX());
+  add_face(edge(), Vec3f::UnitZ(), Vec3f::UnitX());
   EXPECT_NE(shaped_at({0.5F, 0.29F, 0.02F}).shape, Shape::strip);
 }
 
