@@ -260,18 +260,18 @@ void Fixtures::leave_out_doors(const Model& model, PlaneGrids& grids, std::size_
   };
   std::size_t kept = 0;
   for (std::size_t first = 0; first < layer_.size();) {
-    const Upright upright = upright_of(model, grids, plane, first, end_of_column(first));
-    std::size_t end = end_of_column(first);
-    std::int32_t doors = upright == Upright::door ? 1 : 0;
-    bool any_wall = upright == Upright::wall;
-    while (upright != Upright::none && end < layer_.size() &&
-           layer_[end].column == layer_[end - 1].column + 1) {
-      const Upright next = upright_of(model, grids, plane, end, end_of_column(end));
-      if (next == Upright::none) break;
-      doors += next == Upright::door ? 1 : 0;
-      any_wall = any_wall || next == Upright::wall;
+    std::size_t end = first;
+    std::int32_t doors = 0;
+    bool any_wall = false;
+    while (end < layer_.size() &&
+           (end == first || layer_[end].column == layer_[end - 1].column + 1)) {
+      const Upright upright = upright_of(model, grids, plane, end, end_of_column(end));
+      if (upright == Upright::none) break;
+      doors += upright == Upright::door ? 1 : 0;
+      any_wall = any_wall || upright == Upright::wall;
       end = end_of_column(end);
     }
+    if (end == first) end = end_of_column(first);
     const bool of_the_wall = (any_wall || doors >= kLeastDoorColumns) && doors <= kMostDoorColumns;
     for (; first < end; ++first) {
       const Place at = layer_[first];

@@ -64,7 +64,7 @@ struct WallSegment {
   bool accepted = false;
   bool narrow = false;                        // may be a pillar or a person
   bool free_begin = false, free_end = false;  // rays pass beside it
-  bool furniture = false;                     // a wall is close behind
+  bool furniture = false;                     // a wall is close behind, or it is a lamp
 
   [[nodiscard]] float width_m() const noexcept { return end_m - begin_m; }
   [[nodiscard]] float middle_m() const noexcept { return (begin_m + end_m) / 2; }
@@ -73,6 +73,7 @@ struct WallSegment {
 // What is narrower may be a pillar, a person or the side of furniture.
 inline constexpr float kNarrowM = 0.8F;
 inline constexpr float kTallerThanFurnitureM = 2.4F;  // over the floor
+inline constexpr float kLowM = 1.0F;      // the same: sides of desks, seen between other things
 inline constexpr float kFlatFace = 1.2F;  // spread², relative to the noise²: no thicker than it
 
 // Where the lidar is, and how many revolutions the model is made of.

@@ -14,7 +14,6 @@ constexpr float kTallerThanPeopleM = 2.3F;
 constexpr float kTallerThanBackrestsM = 2.05F;
 constexpr float kTallerThanStandsM = 2.6F;  // of a fair
 constexpr float kHighestSillM = 1.4F;
-constexpr float kLowM = 1.0F;
 constexpr float kFootM = 0.75F;
 constexpr float kHighestSliverM = 2.2F;
 
@@ -112,14 +111,17 @@ template <class Value>
   return s.open > s.closed && top_m <= kHighestSillM;
 }
 
+// Of a few cells alone it tells less than from where they were seen.
+[[nodiscard]] bool is_low(const WallSegment& s, const InPlane& all, float top_m) noexcept {
+  return top_m < kLowM && all.closed > kFewCells && all.closed <= kSmallLowCells &&
+         !may_have_sill(s, top_m);
+}
+
 [[nodiscard]] bool is_doubtful(const Model& model, const PlaneGrids& grids, const WallSegment& s,
                                const InPlane& all, const Sighting& sighting) noexcept {
   const float top_m = s.top_m - model.floor_z;
   if (top_m < kHighestSliverM && all.widest_m <= kSliverM) return true;
-  if (top_m < kLowM && all.closed > kFewCells && all.closed <= kSmallLowCells &&
-      !may_have_sill(s, top_m)) {
-    return true;
-  }
+  if (is_low(s, all, top_m)) return true;
   if (top_m < kTallerThanPeopleM && is_gone(grids, s, all)) return true;
   if (sighting.revolutions >= kLeastRevolutions && top_m < kTallerThanStandsM &&
       is_sparse(grids, s, all)) {

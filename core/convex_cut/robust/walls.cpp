@@ -220,9 +220,8 @@ void Walls::take_columns(const Model& model, const PlaneGrids& grids, std::size_
     // What ends within a cell does not let through what passes over it.
     const bool ends_within =
         through == 1 && column.open_above && grids.cell(grid, c, column.top).passed >= kPassed;
-    if ((through >= column.open && !ends_within) ||
-        goes_up_to_ceiling(model, grids, plane, c, column))
-      column.open = 0;
+    const bool is_glass = through >= column.open && !ends_within;
+    if (is_glass || goes_up_to_ceiling(model, grids, plane, c, column)) column.open = 0;
     columns_.push_back(column);
   }
 }
