@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/convex_cut/robust/faces.hpp"
 #include "core/convex_cut/robust/point_kernels.hpp"
 
 namespace convexcut::robust {
@@ -20,6 +21,8 @@ constexpr double kNoiseM = 0.02;
 // Neighbouring points share what is wrong with their surface: their information adds up slowly.
 constexpr double kIndependent = 0.05;
 constexpr double kRotationSigma = 0.01;  // radians
+constexpr float kOffFaceM = 0.01F;       // of a cell's mean: something before or behind the face
+constexpr float kOfUnknown = 0.3F;       // the weight of points where a plane is hardly known
 
 // What stands holds the pose whether it is structure or not, but no rings of the lidar.
 [[nodiscard]] std::uint64_t surfaces(const Model& model) noexcept {
@@ -48,6 +51,26 @@ constexpr double kRotationSigma = 0.01;  // radians
   return nearest;
 }
 
+struct Expected {
+  float height_m = 0.0F;  // over the plane
+  float weight = 1.0F;
+};
+
+// Where the plane's surface is at p. A board, a door or the books in a front are where they were
+// seen: taken for the plane itself they draw the pose by as much as they are off it, more or less
+// as more or less of them is in view.
+[[nodiscard]] Expected expected_at(const Model& model, const PlaneGrids& grids, std::size_t k,
+                                   const Vec3f& p) noexcept {
+  const PlaneGrid& grid = grids.grid(k);
+  const std::int32_t column = grid.column_of(p);
+  const std::int32_t row = grid.row_of(p);
+  if (!grid.holds(column, row)) return {0.0F, kOfUnknown};
+  const Cell& cell = grids.cell(grid, column, row);
+  if (cell.points < kLeastFacePoints) return {0.0F, kOfUnknown};
+  const float face_m = model.planes[k].face_m;
+  return {std::abs(cell.mean_m() - face_m) > kOffFaceM ? cell.mean_m() : face_m, 1.0F};
+}
+
 }  // namespace
 
 struct Alignment::Equations {
@@ -55,12 +78,14 @@ struct Alignment::Equations {
   Vec6 gradient = Vec6::Zero();
   std::size_t structure = 0;  // points on it
 
-  void add(const Vec3f& from_rig, const Plane& plane, float height_m) noexcept {
+  // height_m: over where it is expected.
+  void add(const Vec3f& from_rig, const Plane& plane, float height_m, float share) noexcept {
     Vec6 j;
     j << from_rig.cross(plane.normal).cast<double>(), plane.normal.cast<double>();
     const auto height = static_cast<double>(height_m);
     const double relative = height / kNoiseM;
-    const double weight = kIndependent / (kNoiseM * kNoiseM) / (1.0 + relative * relative / 4.0);
+    const double weight = static_cast<double>(share) * kIndependent / (kNoiseM * kNoiseM) /
+                          (1.0 + relative * relative / 4.0);
     for (Eigen::Index column = 0; column < 6; ++column) {
       for (Eigen::Index row = column; row < 6; ++row) {
         information(row, column) += weight * j[row] * j[column];
@@ -103,7 +128,9 @@ Alignment::Equations Alignment::equations_at(const RigPose& pose, const Model& m
       const std::int32_t k = plane_at(model, grids, p, near[i], gate_m);
       if (k == kNoPlane) continue;
       const Plane& plane = model.planes[static_cast<std::size_t>(k)];
-      equations.add(p - pose.position, plane, plane.height_of(p));
+      const Expected expected = expected_at(model, grids, static_cast<std::size_t>(k), p);
+      equations.add(p - pose.position, plane, plane.height_of(p) - expected.height_m,
+                    expected.weight);
     }
   }
   return equations;

@@ -10,7 +10,9 @@ namespace convexcut::robust {
 namespace {
 
 constexpr std::size_t kMostCells = 1U << 16U;
-constexpr float kOffM = 0.017F;  // the wall itself is flatter than this
+constexpr float kProudM = 0.014F;         // the wall itself is flatter than this
+constexpr float kProudOfGlassM = 0.017F;  // where it is partly glass: posts, frames, few points
+constexpr float kAnyGlass = 0.01F;        // share of the cells
 constexpr std::size_t kLeastCells = 3;
 constexpr float kToFloorM = 0.4F;
 constexpr float kHiddenM = 0.9F;  // over the floor: a door's foot, by a table or a chair
@@ -42,26 +44,37 @@ constexpr float kSolid = 0.7F;  // share of its columns that a door covers
   return votes.mode().height_m;
 }
 
-[[nodiscard]] bool is_off(const Cell& cell, float face_m) noexcept {
-  return cell.structure && !cell.visited && cell.points >= kLeastFacePoints &&
-         std::abs(cell.mean_m() - face_m) > kOffM;
-}
-
-// Whether rays go through the face: what is proud of it is its frame.
-[[nodiscard]] bool is_glazed(const PlaneGrids& grids, const PlaneGrid& grid,
-                             float face_m) noexcept {
+// Of the cells of a wall that tell its depth and that a test is true of: how many rays go through.
+template <class Test>
+[[nodiscard]] float passed_share(const PlaneGrids& grids, const PlaneGrid& grid,
+                                 Test&& is_asked) noexcept {
   std::size_t cells = 0;
   std::size_t passed = 0;
   for (std::int32_t row = 0; row < grid.rows; ++row) {
     for (std::int32_t column = 0; column < grid.columns; ++column) {
       const Cell& cell = grids.cell(grid, column, row);
-      if (!cell.structure || cell.points < kLeastFacePoints) continue;
-      if (std::abs(cell.mean_m() - face_m) > kOffM) continue;
+      if (!cell.structure || cell.points < kLeastFacePoints || !is_asked(cell)) continue;
       ++cells;
       passed += cell.passed >= kPassed ? 1U : 0U;
     }
   }
-  return static_cast<float>(passed) > kLeastGlassOfFace * static_cast<float>(cells);
+  return static_cast<float>(passed) / static_cast<float>(std::max<std::size_t>(cells, 1));
+}
+
+[[nodiscard]] bool has_glass(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
+  return passed_share(grids, grid, [](const Cell&) { return true; }) > kAnyGlass;
+}
+
+[[nodiscard]] bool is_off(const Cell& cell, const WallFace& face) noexcept {
+  return cell.structure && !cell.visited && cell.points >= kLeastFacePoints &&
+         !face.holds(cell.mean_m());
+}
+
+// Whether rays go through the face: what is proud of it is its frame.
+[[nodiscard]] bool is_glazed(const PlaneGrids& grids, const PlaneGrid& grid,
+                             const WallFace& face) noexcept {
+  return passed_share(grids, grid, [&](const Cell& cell) { return face.holds(cell.mean_m()); }) >
+         kLeastGlassOfFace;
 }
 
 void be_wall(Cell& cell) noexcept {
@@ -77,12 +90,12 @@ struct Surroundings {
 };
 
 [[nodiscard]] Surroundings surroundings_of(const PlaneGrids& grids, const PlaneGrid& grid,
-                                           float face_m, std::int32_t at_column,
+                                           const WallFace& face, std::int32_t at_column,
                                            std::int32_t at_row) noexcept {
   const auto is_face = [&](std::int32_t column, std::int32_t row) {
     const Cell& cell = grids.cell(grid, column, row);
     return cell.structure && cell.layer_m == 0.0F && cell.points >= kLeastFacePoints &&
-           std::abs(cell.mean_m() - face_m) <= kOffM;
+           face.holds(cell.mean_m());
   };
   Surroundings around;
   for (std::int32_t row = at_row + 1; row < grid.rows; ++row) {
@@ -112,16 +125,17 @@ void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
     Plane& plane = model.planes[k];
     if (!plane.accepted || !plane.vertical || plane.surfels < kLargeFaceSurfels) continue;
     const PlaneGrid& grid = grids.grid(k);
-    plane.face_m = face_of(grids, grid);
-    plane.face_m = wall_behind_face(model, grids, k).value_or(plane.face_m);
-    const bool glazed = is_glazed(grids, grid, plane.face_m);
+    WallFace face{face_of(grids, grid), has_glass(grids, grid) ? kProudOfGlassM : kProudM};
+    face.height_m = wall_behind(model, grids, k, face).value_or(face.height_m);
+    plane.face_m = face.height_m;
+    const bool glazed = is_glazed(grids, grid, face);
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       for (std::int32_t column = 0; column < grid.columns; ++column) {
-        if (!is_off(grids.cell(grid, column, row), plane.face_m)) continue;
-        collect_layer(grids, grid, plane.face_m, {column, row});
-        leave_out_doors(model, grids, k);
+        if (!is_off(grids.cell(grid, column, row), face)) continue;
+        collect_layer(grids, grid, face, {column, row});
+        leave_out_doors(model, grids, k, face);
         if (layer_.size() >= kLeastCells && !is_glass(grids, grid) &&
-            (is_in_front(grids, grid) ? !glazed : is_in_a_recess(grids, grid, plane.face_m))) {
+            (is_in_front(grids, grid) ? !glazed : is_in_a_recess(grids, grid, face))) {
           continue;
         }
         for (const Place& at : layer_) be_wall(grids.cell(grid, at.column, at.row));
@@ -130,13 +144,13 @@ void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
   }
 }
 
-void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float face_m,
+void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, const WallFace& face,
                              Place seed) noexcept {
   layer_.clear();
   const auto take = [&](std::int32_t column, std::int32_t row) {
     Cell& cell = grids.cell(grid, column, row);
     cell.visited = true;
-    cell.layer_m = cell.mean_m() - face_m;
+    cell.layer_m = cell.mean_m() - face.height_m;
     layer_.push_back({column, row});
   };
   take(seed.column, seed.row);
@@ -148,7 +162,7 @@ void Fixtures::collect_layer(PlaneGrids& grids, const PlaneGrid& grid, float fac
       for (std::int32_t column = at.column - 1; column <= at.column + 1; ++column) {
         if (!grid.holds(column, row) || layer_.size() == kMostCells) continue;
         const Cell& cell = grids.cell(grid, column, row);
-        if (is_off(cell, face_m) && (cell.mean_m() - face_m) * sign > 0.0F) take(column, row);
+        if (is_off(cell, face) && (cell.mean_m() - face.height_m) * sign > 0.0F) take(column, row);
       }
     }
   }
@@ -170,11 +184,11 @@ bool Fixtures::is_glass(const PlaneGrids& grids, const PlaneGrid& grid) const no
 // hangs over a hole, or when wall frames it on three sides; otherwise it is the wall, and what
 // stands before it was taken for the face.
 bool Fixtures::is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid,
-                              float face_m) const noexcept {
+                              const WallFace& face) const noexcept {
   std::size_t hanging = 0;
   std::size_t framed = 0;
   for (const Place& at : layer_) {
-    const Surroundings around = surroundings_of(grids, grid, face_m, at.column, at.row);
+    const Surroundings around = surroundings_of(grids, grid, face, at.column, at.row);
     hanging += around.above || around.hole ? 1U : 0U;
     framed += around.below && around.left && around.right ? 1U : 0U;
   }
@@ -182,10 +196,9 @@ bool Fixtures::is_in_a_recess(const PlaneGrids& grids, const PlaneGrid& grid,
 }
 
 // A board may have more cells than what is seen of its wall, and is taken for the face then.
-std::optional<float> Fixtures::wall_behind_face(const Model& model, PlaneGrids& grids,
-                                                std::size_t plane) noexcept {
+std::optional<float> Fixtures::wall_behind(const Model& model, PlaneGrids& grids, std::size_t plane,
+                                           const WallFace& face) noexcept {
   const PlaneGrid& grid = grids.grid(plane);
-  const float face_m = model.planes[plane].face_m;
   std::optional<float> found;
   bool any = false;
   std::size_t seen = 0;
@@ -198,16 +211,16 @@ std::optional<float> Fixtures::wall_behind_face(const Model& model, PlaneGrids& 
   for (std::int32_t row = 0; row < grid.rows && !found; ++row) {
     for (std::int32_t column = 0; column < grid.columns && !found; ++column) {
       const Cell& cell = grids.cell(grid, column, row);
-      if (!is_off(cell, face_m) || cell.mean_m() > face_m) continue;
-      collect_layer(grids, grid, face_m, {column, row});
+      if (!is_off(cell, face) || cell.mean_m() > face.height_m) continue;
+      collect_layer(grids, grid, face, {column, row});
       any = true;
       if (static_cast<float>(layer_.size()) < kLeastWallShare * static_cast<float>(seen) ||
-          !goes_on_below(model, grids, plane)) {
+          !goes_on_below(model, grids, plane, face)) {
         continue;
       }
       float sum_m = 0.0F;
       for (const Place& at : layer_) sum_m += grids.cell(grid, at.column, at.row).layer_m;
-      found = face_m + sum_m / static_cast<float>(layer_.size());
+      found = face.height_m + sum_m / static_cast<float>(layer_.size());
     }
   }
   for (std::int32_t row = 0; any && row < grid.rows; ++row) {
@@ -222,8 +235,8 @@ std::optional<float> Fixtures::wall_behind_face(const Model& model, PlaneGrids& 
 
 // Whether most of the layer is below the face, which ends lower than the head of any opening: so
 // it is the face that hangs on the layer, a board on a wall.
-bool Fixtures::goes_on_below(const Model& model, const PlaneGrids& grids,
-                             std::size_t plane) const noexcept {
+bool Fixtures::goes_on_below(const Model& model, const PlaneGrids& grids, std::size_t plane,
+                             const WallFace& face) const noexcept {
   const Plane& wall = model.planes[plane];
   const PlaneGrid& grid = grids.grid(plane);
   const auto height_m = [&](std::int32_t column, std::int32_t row) {
@@ -238,7 +251,7 @@ bool Fixtures::goes_on_below(const Model& model, const PlaneGrids& grids,
     ++cells;
     lowest = std::min(lowest, at.row);
     highest = std::max(highest, at.row);
-    const Surroundings around = surroundings_of(grids, grid, wall.face_m, at.column, at.row);
+    const Surroundings around = surroundings_of(grids, grid, face, at.column, at.row);
     const bool is_below =
         around.above && !around.hole && height_m(at.column, around.head) < kLeastHeadM;
     below += is_below ? 1U : 0U;
@@ -247,7 +260,8 @@ bool Fixtures::goes_on_below(const Model& model, const PlaneGrids& grids,
 }
 
 // Column by column: a board beside a door, a cell away, is in the same layer.
-void Fixtures::leave_out_doors(const Model& model, PlaneGrids& grids, std::size_t plane) noexcept {
+void Fixtures::leave_out_doors(const Model& model, PlaneGrids& grids, std::size_t plane,
+                               const WallFace& face) noexcept {
   if (std::isinf(model.floor_z)) return;
   const PlaneGrid& grid = grids.grid(plane);
   std::sort(layer_.begin(), layer_.end(), [](const Place& a, const Place& b) {
@@ -265,7 +279,7 @@ void Fixtures::leave_out_doors(const Model& model, PlaneGrids& grids, std::size_
     bool any_wall = false;
     while (end < layer_.size() &&
            (end == first || layer_[end].column == layer_[end - 1].column + 1)) {
-      const Upright upright = upright_of(model, grids, plane, end, end_of_column(end));
+      const Upright upright = upright_of(model, grids, plane, face, end, end_of_column(end));
       if (upright == Upright::none) break;
       doors += upright == Upright::door ? 1 : 0;
       any_wall = any_wall || upright == Upright::wall;
@@ -284,7 +298,7 @@ void Fixtures::leave_out_doors(const Model& model, PlaneGrids& grids, std::size_
 
 // Of one column of the layer.
 Fixtures::Upright Fixtures::upright_of(const Model& model, const PlaneGrids& grids,
-                                       std::size_t plane, std::size_t first,
+                                       std::size_t plane, const WallFace& face, std::size_t first,
                                        std::size_t end) const noexcept {
   const PlaneGrid& grid = grids.grid(plane);
   const Place low = layer_[first];
@@ -296,8 +310,7 @@ Fixtures::Upright Fixtures::upright_of(const Model& model, const PlaneGrids& gri
   if (static_cast<float>(end - first) * kCellM < kSolid * height_m) return Upright::none;
   if (bottom_m <= kToFloorM && height_m >= kRoomHighM) return Upright::wall;
   if (bottom_m <= kToFloorM) return height_m >= kDoorHeightM ? Upright::door : Upright::none;
-  const Surroundings around =
-      surroundings_of(grids, grid, model.planes[plane].face_m, low.column, low.row);
+  const Surroundings around = surroundings_of(grids, grid, face, low.column, low.row);
   const bool is_door = bottom_m <= kHiddenM && !around.below && !around.hole &&
                        height_m >= kHalfDoorHeightM && top_m >= kLeastDoorTopM &&
                        top_m <= kMostDoorTopM;

@@ -11,7 +11,8 @@
 namespace convexcut::robust {
 
 // The sills, jambs and heads of windows and doors: too narrow to be planes of their own, they join
-// a wall to what lies parallel behind it, and are as much of the wall as these.
+// a wall to what lies parallel behind it, and are as much of the wall as these. Of an opening only
+// the jambs are known, beside which rays go through the wall.
 class Recesses {
  public:
   using Id = std::uint8_t;
@@ -30,8 +31,9 @@ class Recesses {
 
  private:
   static constexpr std::size_t kMost = 32;
+  static constexpr std::uint8_t kNothing = 255;
   struct Recess {
-    std::uint8_t wall = 0, behind = 0;  // planes
+    std::uint8_t wall = 0, behind = 0;  // planes; kNothing: an opening
   };
   std::array<Recess, kMost> recesses_{};
   std::size_t count_ = 0;

@@ -70,12 +70,13 @@ TEST(RobustLayers, KeepsNoiseBehindAWall) {
   return seen;
 }
 
-[[nodiscard]] Kept kept_of_glazed(const BoxRoom& open, const test::RoomBox& pane) {
+[[nodiscard]] Kept kept_of_glazed(const BoxRoom& open, const test::RoomBox& pane,
+                                  std::uint64_t first_seed = 1) {
   BoxRoom glazed = open;
   glazed.boxes.push_back(pane);
   RobustCut robust({}, test::kMostPoints);
   Kept kept;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = first_seed; seed < first_seed + 6; ++seed) {
     kept.cloud = through_glass(glazed, open, {.noise_m = 0.01, .seed = seed});
     kept.labels.assign(kept.cloud.cloud.size(), Label::other);
     EXPECT_EQ(robust.label(kept.cloud.cloud.view(), kept.labels), CutStatus::ok);
@@ -96,12 +97,57 @@ TEST(RobustLayers, KeepsAPaneOfGlassInARecess) {
 // There is more of the glass than of what frames it, which is proud of it as boards are.
 TEST(RobustLayers, KeepsTheFrameOfAGlazedWall) {
   BoxRoom open;
-  open.boxes = {{{2.0, -3.0, -1.2}, {2.1, -2.0, 1.6}},
-                {{2.0, 2.0, -1.2}, {2.1, 3.0, 1.6}},
-                {{2.0, -2.0, 0.0}, {2.1, 2.0, 1.6}}};
-  const Kept kept = kept_of_glazed(open, {{2.04, -2.0, -1.2}, {2.06, 2.0, 0.0}});
-  EXPECT_GT(kept.share_of(2), 0.8);
-  EXPECT_GT(kept.share_of(3), 0.8);
+  open.boxes = {{{2.0, -3.0, -1.2}, {2.1, -1.8, 1.6}},
+                {{2.0, 1.8, -1.2}, {2.1, 3.0, 1.6}},
+                {{2.0, -1.8, 0.0}, {2.1, 1.8, 1.6}}};
+  for (const std::uint64_t seed : {1U, 101U, 201U, 301U}) {
+    const Kept kept = kept_of_glazed(open, {{2.02, -1.8, -1.2}, {2.04, 1.8, 0.0}}, seed);
+    EXPECT_GT(kept.share_of(2), 0.8) << seed;
+    EXPECT_GT(kept.share_of(3), 0.8) << seed;
+  }
+}
+
+// Through an open door. Behind it is a room as wide as this one, and nothing parallel near the
+// wall.
+TEST(RobustLayers, KeepsTheJambOfAnOpenDoor) {
+  for (const float thick_m : {0.12F, 0.2F}) {
+    const double end = 2.0 + static_cast<double>(thick_m);
+    BoxRoom room;
+    room.walls = {{-3.0, -3.0, -1.2}, {6.0, 3.0, 1.6}};
+    room.boxes = {{{2.0, -3.0, -1.2}, {end, 0.4, 1.6}},
+                  {{2.0, 1.3, -1.2}, {end, 3.0, 1.6}},
+                  {{2.0, 0.4, 0.85}, {end, 1.3, 1.6}}};
+    const auto is_jamb = [&](const Vec3f& p) {
+      return p.x() > 1.92F + thick_m && p.x() < 1.98F + thick_m && p.z() > -1.1F && p.z() < 0.8F;
+    };
+    for (const std::uint64_t seed : {1U, 101U, 201U}) {
+      const Kept kept = cut(room, {.noise_m = 0.01, .seed = seed}, 4);
+      EXPECT_GT(kept.share_of(1, is_jamb), 0.75) << thick_m << " m thick, seed " << seed;
+    }
+  }
+}
+
+TEST(RobustLayers, RemovesABoardThatIsThinnerThanTheNoise) {
+  const Kept kept = cut(with({{3.985, -1.0, -0.5}, {4.0, 1.0, 0.7}}), {.noise_m = 0.02}, 8);
+  EXPECT_LT(kept.share_of(0), test::kMostlyRemoved);
+  EXPECT_GT(kept.share_of(test::kWalls), kKept);
+}
+
+// The lidar stands, and from one revolution to the next more or less of the boards is in view.
+TEST(RobustLayers, BoardsDoNotDrawThePose) {
+  BoxRoom room;
+  room.boxes = {{{3.96, -3.0, -0.4}, {4.0, 0.0, 1.1}},
+                {{-4.0, 0.0, -0.4}, {-3.97, 2.4, 0.9}},
+                {{-2.0, -3.0, -0.4}, {2.0, -2.97, 0.8}}};
+  for (const std::uint64_t seed : {1U, 101U, 201U}) {
+    RobustCut robust({}, test::kMostPoints);
+    (void)test::last_of(robust, room, {.tilt_deg = 30.0, .noise_m = 0.01, .seed = seed}, 28);
+    Vec3f farthest = Vec3f::Zero();
+    for (const robust::Surfel& surfel : robust.model().surfels) {
+      farthest = farthest.cwiseMax(surfel.origin.cwiseAbs());
+    }
+    EXPECT_LT(farthest.head<2>().maxCoeff(), 0.005F) << seed;
+  }
 }
 
 }  // namespace
