@@ -34,21 +34,34 @@ constexpr float kOfUnknown = 0.3F;       // the weight of points where a plane i
   return set;
 }
 
-// Of the planes that p is near, the nearest that was seen there, or kNoPlane.
-[[nodiscard]] std::int32_t plane_at(const Model& model, const PlaneGrids& grids, const Vec3f& p,
-                                    std::uint64_t near, float gate_m) noexcept {
-  std::int32_t nearest = kNoPlane;
+// Where a point touches a surface.
+struct Touch {
+  std::int32_t plane = kNoPlane;
+  float height_m = 0.0F;       // over the plane
+  const Cell* cell = nullptr;  // of the plane, where it was seen there
+};
+
+// Of the planes that p is near, the nearest that was seen there.
+[[nodiscard]] Touch touch_of(const Model& model, const PlaneGrids& grids, const Vec3f& p,
+                             std::uint64_t near, float gate_m) noexcept {
+  Touch touch;
   float least = gate_m;
   for (; near != 0; near &= near - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(near));
     const Plane& plane = model.planes[k];
-    const float height = std::abs(plane.height_of(p));
-    if (height >= least) continue;
-    if (plane.accepted ? !grids.is_beside_structure(k, p) : !grids.is_seen(k, p)) continue;
-    least = height;
-    nearest = static_cast<std::int32_t>(k);
+    const float height_m = plane.height_of(p);
+    if (std::abs(height_m) >= least) continue;
+    const PlaneGrid& grid = grids.grid(k);
+    const std::int32_t column = grid.column_of(p);
+    const std::int32_t row = grid.row_of(p);
+    const Cell* cell = grid.holds(column, row) ? &grids.cell(grid, column, row) : nullptr;
+    const bool is_there = plane.accepted ? grids.is_beside_structure(k, column, row)
+                                         : cell != nullptr && cell->seen > 0;
+    if (!is_there) continue;
+    least = std::abs(height_m);
+    touch = {static_cast<std::int32_t>(k), height_m, cell};
   }
-  return nearest;
+  return touch;
 }
 
 struct Expected {
@@ -56,19 +69,13 @@ struct Expected {
   float weight = 1.0F;
 };
 
-// Where the plane's surface is at p. A board, a door or the books in a front are where they were
-// seen: taken for the plane itself they draw the pose by as much as they are off it, more or less
-// as more or less of them is in view.
-[[nodiscard]] Expected expected_at(const Model& model, const PlaneGrids& grids, std::size_t k,
-                                   const Vec3f& p) noexcept {
-  const PlaneGrid& grid = grids.grid(k);
-  const std::int32_t column = grid.column_of(p);
-  const std::int32_t row = grid.row_of(p);
-  if (!grid.holds(column, row)) return {0.0F, kOfUnknown};
-  const Cell& cell = grids.cell(grid, column, row);
-  if (cell.points < kLeastFacePoints) return {0.0F, kOfUnknown};
-  const float face_m = model.planes[k].face_m;
-  return {std::abs(cell.mean_m() - face_m) > kOffFaceM ? cell.mean_m() : face_m, 1.0F};
+// Where the plane's surface is. A board, a door or the books in a front are where they were seen:
+// taken for the plane itself they draw the pose by as much as they are off it, more or less as more
+// or less of them is in view.
+[[nodiscard]] Expected expected_of(const Plane& plane, const Cell* cell) noexcept {
+  if (cell == nullptr || cell->points < kLeastFacePoints) return {0.0F, kOfUnknown};
+  const float mean_m = cell->mean_m();
+  return {std::abs(mean_m - plane.face_m) > kOffFaceM ? mean_m : plane.face_m, 1.0F};
 }
 
 }  // namespace
@@ -125,12 +132,11 @@ Alignment::Equations Alignment::equations_at(const RigPose& pose, const Model& m
     find_planes(moved.columns(), model.planes, asked, gate_m, near);
     for (std::size_t i = 0; i < std::min(kPointsAtOnce, samples_ - begin); ++i) {
       const Vec3f p(moved.x[i], moved.y[i], moved.z[i]);
-      const std::int32_t k = plane_at(model, grids, p, near[i], gate_m);
-      if (k == kNoPlane) continue;
-      const Plane& plane = model.planes[static_cast<std::size_t>(k)];
-      const Expected expected = expected_at(model, grids, static_cast<std::size_t>(k), p);
-      equations.add(p - pose.position, plane, plane.height_of(p) - expected.height_m,
-                    expected.weight);
+      const Touch touch = touch_of(model, grids, p, near[i], gate_m);
+      if (touch.plane == kNoPlane) continue;
+      const Plane& plane = model.planes[static_cast<std::size_t>(touch.plane)];
+      const Expected expected = expected_of(plane, touch.cell);
+      equations.add(p - pose.position, plane, touch.height_m - expected.height_m, expected.weight);
     }
   }
   return equations;

@@ -30,18 +30,31 @@ constexpr std::int32_t kLeastDoorColumns = 2;
 constexpr std::int32_t kMostDoorColumns = 5;
 constexpr float kSolid = 0.7F;  // share of its columns that a door covers
 
-// The height over the plane that most cells have. What is seen above a hole may be a blind.
-[[nodiscard]] float face_of(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
-  HeightVotes votes;
+// Of the cells that tell a wall's depth. What is seen above a hole may be a blind.
+template <class Visit>
+void for_each_face_cell(const PlaneGrids& grids, const PlaneGrid& grid, Visit&& visit) noexcept {
   for (std::int32_t column = 0; column < grid.columns; ++column) {
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       const Cell& cell = grids.cell(grid, column, row);
       if (cell.is_hole()) break;
-      if (!cell.structure || cell.points < kLeastFacePoints) continue;
-      votes.add(cell.mean_m());
+      if (cell.structure && cell.points >= kLeastFacePoints) visit(cell);
     }
   }
-  return votes.mode().height_m;
+}
+
+// The height over the plane that most cells have: the mean of these.
+[[nodiscard]] float face_of(const PlaneGrids& grids, const PlaneGrid& grid) noexcept {
+  HeightVotes votes;
+  for_each_face_cell(grids, grid, [&](const Cell& cell) { votes.add(cell.mean_m()); });
+  const float middle_m = votes.mode().height_m;
+  float sum_m = 0.0F;
+  std::int32_t cells = 0;
+  for_each_face_cell(grids, grid, [&](const Cell& cell) {
+    if (std::abs(cell.mean_m() - middle_m) > HeightVotes::kWithinM) return;
+    sum_m += cell.mean_m();
+    ++cells;
+  });
+  return cells > 0 ? sum_m / static_cast<float>(cells) : middle_m;
 }
 
 // Of the cells of a wall that tell its depth and that a test is true of: how many rays go through.

@@ -13,41 +13,34 @@ class HeightVotes {
  public:
   struct Mode {
     std::int32_t votes = 0;  // of its bin twice, of those beside it once
-    float height_m = 0.0F;   // the mean of all three
+    float height_m = 0.0F;   // the middle of its bin
   };
+  // What was voted for is that height to within half of the three bins.
+  static constexpr float kWithinM = 0.006F;
 
   void add(float height_m) noexcept {
     // Rounded without a call: walls are laid on their faces by hundreds of these for each cell.
     const float at = height_m * kBinsPerM + kMiddleOfBins;
-    if (!(at >= 1.0F && at < static_cast<float>(kBins - 1))) return;
-    const auto bin = static_cast<std::size_t>(at);
-    ++cells_[bin];
-    sums_m_[bin] += height_m;
+    if (at >= 1.0F && at < static_cast<float>(kBins - 1)) ++cells_[static_cast<std::size_t>(at)];
   }
   [[nodiscard]] Mode mode() const noexcept {
     Mode mode;
-    std::size_t best = 1;
     for (std::size_t bin = 1; bin + 1 < kBins; ++bin) {
       const std::int32_t votes = cells_[bin - 1] + 2 * cells_[bin] + cells_[bin + 1];
       if (votes <= mode.votes) continue;
-      mode.votes = votes;
-      best = bin;
-    }
-    if (mode.votes > 0) {
-      mode.height_m = (sums_m_[best - 1] + sums_m_[best] + sums_m_[best + 1]) /
-                      static_cast<float>(cells_[best - 1] + cells_[best] + cells_[best + 1]);
+      mode = {votes, (static_cast<float>(bin) - static_cast<float>(kMiddleBin)) * kBinM};
     }
     return mode;
   }
 
  private:
-  static constexpr float kBinM = 0.004F;
+  static constexpr float kBinM = 2.0F / 3.0F * kWithinM;
   static constexpr std::size_t kBins = 41;
+  static constexpr std::size_t kMiddleBin = kBins / 2;
   static constexpr float kBinsPerM = 1.0F / kBinM;
-  static constexpr float kMiddleOfBins = static_cast<float>(kBins) / 2.0F;  // kBins is odd
+  static constexpr float kMiddleOfBins = static_cast<float>(kMiddleBin) + 0.5F;
 
   std::array<std::int32_t, kBins> cells_{};
-  std::array<float, kBins> sums_m_{};
 };
 
 }  // namespace convexcut::robust

@@ -131,9 +131,10 @@ class PlaneGrids {
 
   // The same at once, when all is decided: for the two below.
   void mark_reach(const Model& model) noexcept;
-  // is_structure() within 1.
-  [[nodiscard]] bool is_beside_structure(std::size_t plane, const Vec3f& p) const noexcept {
-    return (reach_at(plane, p) & kBeside) != 0;
+  // is_structure() within 1, of the cell there.
+  [[nodiscard]] bool is_beside_structure(std::size_t plane, std::int32_t column,
+                                         std::int32_t row) const noexcept {
+    return (reach_at(plane, column, row) & kBeside) != 0;
   }
   // is_structure() within kWallReach or kFlatReach.
   [[nodiscard]] bool is_within_reach(std::size_t plane, const Vec3f& p) const noexcept {
@@ -148,13 +149,6 @@ class PlaneGrids {
     const std::int32_t column = g.column_of(p);
     const std::int32_t row = g.row_of(p);
     return g.holds(column, row) ? cell(g, column, row).inset_m : 0.0F;
-  }
-  // Whether anything of the plane was seen in the cell at p.
-  [[nodiscard]] bool is_seen(std::size_t plane, const Vec3f& p) const noexcept {
-    const PlaneGrid& g = grids_[plane];
-    const std::int32_t column = g.column_of(p);
-    const std::int32_t row = g.row_of(p);
-    return g.holds(column, row) && cell(g, column, row).seen > 0;
   }
   // Once mark_reach() was called: the layer of the cell at p, or the greatest of those beside it;
   // 0: none.
@@ -192,8 +186,13 @@ class PlaneGrids {
   static constexpr std::uint8_t kWithinReach = 2;
   [[nodiscard]] std::uint8_t reach_at(std::size_t plane, const Vec3f& p) const noexcept {
     const PlaneGrid& g = grids_[plane];
-    const std::int32_t column = g.column_of(p) + g.around;
-    const std::int32_t row = g.row_of(p) + g.around;
+    return reach_at(plane, g.column_of(p), g.row_of(p));
+  }
+  [[nodiscard]] std::uint8_t reach_at(std::size_t plane, std::int32_t of_column,
+                                      std::int32_t of_row) const noexcept {
+    const PlaneGrid& g = grids_[plane];
+    const std::int32_t column = of_column + g.around;
+    const std::int32_t row = of_row + g.around;
     const std::int32_t columns = g.columns + 2 * g.around;
     if (!g.has_reach || column < 0 || row < 0 || column >= columns ||
         row >= g.rows + 2 * g.around) {
