@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "core/convex_cut/robust/faces.hpp"
 #include "core/convex_cut/robust/point_kernels.hpp"
 
 namespace convexcut::robust {
@@ -22,7 +21,7 @@ constexpr double kNoiseM = 0.02;
 constexpr double kIndependent = 0.05;
 constexpr double kRotationSigma = 0.01;  // radians
 constexpr float kOffFaceM = 0.01F;       // of a cell's mean: something before or behind the face
-constexpr float kOfUnknown = 0.3F;       // the weight of points where a plane is hardly known
+constexpr float kOfUnknown = 0.3F;       // share of a point's weight where a plane is hardly known
 
 // What stands holds the pose whether it is structure or not, but no rings of the lidar.
 [[nodiscard]] std::uint64_t surfaces(const Model& model) noexcept {
@@ -36,9 +35,9 @@ constexpr float kOfUnknown = 0.3F;       // the weight of points where a plane i
 
 // Where a point touches a surface.
 struct Touch {
-  std::int32_t plane = kNoPlane;
-  float height_m = 0.0F;       // over the plane
-  const Cell* cell = nullptr;  // of the plane, where it was seen there
+  const Plane* plane = nullptr;  // none: nowhere
+  const Cell* cell = nullptr;    // none: outside of what was seen of the plane
+  float height_m = 0.0F;         // over the plane
 };
 
 // Of the planes that p is near, the nearest that was seen there.
@@ -59,23 +58,24 @@ struct Touch {
                                          : cell != nullptr && cell->seen > 0;
     if (!is_there) continue;
     least = std::abs(height_m);
-    touch = {static_cast<std::int32_t>(k), height_m, cell};
+    touch = {&plane, cell, height_m};
   }
   return touch;
 }
 
 struct Expected {
   float height_m = 0.0F;  // over the plane
-  float weight = 1.0F;
+  float share = 1.0F;     // of a point's weight
 };
 
 // Where the plane's surface is. A board, a door or the books in a front are where they were seen:
 // taken for the plane itself they draw the pose by as much as they are off it, more or less as more
 // or less of them is in view.
-[[nodiscard]] Expected expected_of(const Plane& plane, const Cell* cell) noexcept {
-  if (cell == nullptr || cell->points < kLeastFacePoints) return {0.0F, kOfUnknown};
-  const float mean_m = cell->mean_m();
-  return {std::abs(mean_m - plane.face_m) > kOffFaceM ? mean_m : plane.face_m, 1.0F};
+[[nodiscard]] Expected expected_at(const Touch& touch) noexcept {
+  if (touch.cell == nullptr || !touch.cell->tells_depth()) return {0.0F, kOfUnknown};
+  const float mean_m = touch.cell->mean_m();
+  const float face_m = touch.plane->face_m;
+  return {std::abs(mean_m - face_m) > kOffFaceM ? mean_m : face_m, 1.0F};
 }
 
 }  // namespace
@@ -133,10 +133,10 @@ Alignment::Equations Alignment::equations_at(const RigPose& pose, const Model& m
     for (std::size_t i = 0; i < std::min(kPointsAtOnce, samples_ - begin); ++i) {
       const Vec3f p(moved.x[i], moved.y[i], moved.z[i]);
       const Touch touch = touch_of(model, grids, p, near[i], gate_m);
-      if (touch.plane == kNoPlane) continue;
-      const Plane& plane = model.planes[static_cast<std::size_t>(touch.plane)];
-      const Expected expected = expected_of(plane, touch.cell);
-      equations.add(p - pose.position, plane, touch.height_m - expected.height_m, expected.weight);
+      if (touch.plane == nullptr) continue;
+      const Expected expected = expected_at(touch);
+      equations.add(p - pose.position, *touch.plane, touch.height_m - expected.height_m,
+                    expected.share);
     }
   }
   return equations;

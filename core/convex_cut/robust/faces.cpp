@@ -125,7 +125,7 @@ bool Faces::take_cells(const PlaneGrids& grids, Wall& wall) noexcept {
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       const Cell& cell = grids.cell(grid, column, row);
       if (cell.is_hole()) break;
-      if (!cell.structure || cell.enclosed || cell.points < kLeastFacePoints) continue;
+      if (!cell.structure || cell.enclosed || !cell.tells_depth()) continue;
       if (cell.passed > 0) ++glass;
       if (cell.passed > 0 || cells_.size() == kMostFaceCells) continue;
       const float along_m = (static_cast<float>(grid.first_along + column) + 0.5F) * kCellM;

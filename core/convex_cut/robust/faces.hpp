@@ -15,7 +15,6 @@
 
 namespace convexcut::robust {
 
-inline constexpr std::int32_t kLeastFacePoints = 20;    // of a cell: a mean to half a centimetre
 inline constexpr std::uint32_t kLargeFaceSurfels = 60;  // of a wall; smaller have no sure face
 
 class Faces {

@@ -37,7 +37,7 @@ void for_each_face_cell(const PlaneGrids& grids, const PlaneGrid& grid, Visit&& 
     for (std::int32_t row = 0; row < grid.rows; ++row) {
       const Cell& cell = grids.cell(grid, column, row);
       if (cell.is_hole()) break;
-      if (cell.structure && cell.points >= kLeastFacePoints) visit(cell);
+      if (cell.structure && cell.tells_depth()) visit(cell);
     }
   }
 }
@@ -63,14 +63,11 @@ template <class Test>
                                  Test&& is_asked) noexcept {
   std::size_t cells = 0;
   std::size_t passed = 0;
-  for (std::int32_t row = 0; row < grid.rows; ++row) {
-    for (std::int32_t column = 0; column < grid.columns; ++column) {
-      const Cell& cell = grids.cell(grid, column, row);
-      if (!cell.structure || cell.points < kLeastFacePoints || !is_asked(cell)) continue;
-      ++cells;
-      passed += cell.passed >= kPassed ? 1U : 0U;
-    }
-  }
+  grids.for_each_cell(grid, [&](const Cell& cell) {
+    if (!cell.structure || !cell.tells_depth() || !is_asked(cell)) return;
+    ++cells;
+    passed += cell.passed >= kPassed ? 1U : 0U;
+  });
   return static_cast<float>(passed) / static_cast<float>(std::max<std::size_t>(cells, 1));
 }
 
@@ -79,8 +76,7 @@ template <class Test>
 }
 
 [[nodiscard]] bool is_off(const Cell& cell, const WallFace& face) noexcept {
-  return cell.structure && !cell.visited && cell.points >= kLeastFacePoints &&
-         !face.holds(cell.mean_m());
+  return cell.structure && !cell.visited && cell.tells_depth() && !face.holds(cell.mean_m());
 }
 
 // Whether rays go through the face: what is proud of it is its frame.
@@ -107,7 +103,7 @@ struct Surroundings {
                                            std::int32_t at_row) noexcept {
   const auto is_face = [&](std::int32_t column, std::int32_t row) {
     const Cell& cell = grids.cell(grid, column, row);
-    return cell.structure && cell.layer_m == 0.0F && cell.points >= kLeastFacePoints &&
+    return cell.structure && cell.layer_m == 0.0F && cell.tells_depth() &&
            face.holds(cell.mean_m());
   };
   Surroundings around;
@@ -215,12 +211,9 @@ std::optional<float> Fixtures::wall_behind(const Model& model, PlaneGrids& grids
   std::optional<float> found;
   bool any = false;
   std::size_t seen = 0;
-  for (std::int32_t row = 0; row < grid.rows; ++row) {
-    for (std::int32_t column = 0; column < grid.columns; ++column) {
-      const Cell& cell = grids.cell(grid, column, row);
-      seen += cell.structure && !cell.enclosed && cell.points >= kLeastFacePoints ? 1U : 0U;
-    }
-  }
+  grids.for_each_cell(grid, [&](const Cell& cell) {
+    seen += cell.structure && !cell.enclosed && cell.tells_depth() ? 1U : 0U;
+  });
   for (std::int32_t row = 0; row < grid.rows && !found; ++row) {
     for (std::int32_t column = 0; column < grid.columns && !found; ++column) {
       const Cell& cell = grids.cell(grid, column, row);
@@ -236,13 +229,11 @@ std::optional<float> Fixtures::wall_behind(const Model& model, PlaneGrids& grids
       found = face.height_m + sum_m / static_cast<float>(layer_.size());
     }
   }
-  for (std::int32_t row = 0; any && row < grid.rows; ++row) {
-    for (std::int32_t column = 0; column < grid.columns; ++column) {
-      Cell& cell = grids.cell(grid, column, row);
-      cell.visited = false;
-      cell.layer_m = 0.0F;
-    }
-  }
+  if (!any) return std::nullopt;
+  grids.for_each_cell(grid, [](Cell& cell) {
+    cell.visited = false;
+    cell.layer_m = 0.0F;
+  });
   return found;
 }
 

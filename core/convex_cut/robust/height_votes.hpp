@@ -15,8 +15,8 @@ class HeightVotes {
     std::int32_t votes = 0;  // of its bin twice, of those beside it once
     float height_m = 0.0F;   // the middle of its bin
   };
-  // What was voted for is that height to within half of the three bins.
-  static constexpr float kWithinM = 0.006F;
+  static constexpr float kBinM = 0.004F;
+  static constexpr float kWithinM = 1.5F * kBinM;  // of the mode's height: the three bins
 
   void add(float height_m) noexcept {
     // Rounded without a call: walls are laid on their faces by hundreds of these for each cell.
@@ -34,7 +34,6 @@ class HeightVotes {
   }
 
  private:
-  static constexpr float kBinM = 2.0F / 3.0F * kWithinM;
   static constexpr std::size_t kBins = 41;
   static constexpr std::size_t kMiddleBin = kBins / 2;
   static constexpr float kBinsPerM = 1.0F / kBinM;

@@ -25,7 +25,8 @@ inline constexpr float kInFrontM = 0.05F;  // a ray that starts nearer to a plan
 inline constexpr std::int32_t kFlatReach = 6;
 inline constexpr std::int32_t kWallReach = 1;
 
-inline constexpr std::uint16_t kPassed = 2;  // rays; one alone may be a ghost's
+inline constexpr std::uint16_t kPassed = 2;            // rays; one alone may be a ghost's
+inline constexpr std::int32_t kLeastDepthPoints = 20;  // of a cell: a mean to half a centimetre
 
 struct Cell {
   std::uint16_t seen = 0;      // surfels of the plane
@@ -45,6 +46,7 @@ struct Cell {
 
   // Whether rays go through the plane here.
   [[nodiscard]] bool is_hole() const noexcept { return seen == 0 && passed >= kPassed; }
+  [[nodiscard]] bool tells_depth() const noexcept { return points >= kLeastDepthPoints; }
   [[nodiscard]] float mean_m() const noexcept { return height_sum_m / static_cast<float>(points); }
 };
 
@@ -108,6 +110,16 @@ class PlaneGrids {
   }
   [[nodiscard]] const Extent& extent(const PlaneGrid& grid, std::int32_t column) const noexcept {
     return extents_[grid.first_extent + static_cast<std::size_t>(column)];
+  }
+  // Calls visit(cell) for all of a plane's, row by row.
+  template <class Visit>
+  void for_each_cell(const PlaneGrid& grid, Visit&& visit) noexcept {
+    for (Cell& cell : std::span(cells_).subspan(grid.first_cell, grid.cell_count())) visit(cell);
+  }
+  template <class Visit>
+  void for_each_cell(const PlaneGrid& grid, Visit&& visit) const noexcept {
+    for (const Cell& cell : std::span(cells_).subspan(grid.first_cell, grid.cell_count()))
+      visit(cell);
   }
   // Calls visit(cell) for those of a segment's columns, from the bottom up, column by column.
   template <class Visit>

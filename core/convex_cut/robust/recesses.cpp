@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/convex_cut/robust/point_kernels.hpp"
-#include "core/convex_cut/robust/shape.hpp"
 
 namespace convexcut::robust {
 namespace {
@@ -21,7 +20,7 @@ constexpr std::int32_t kAtItsEdges = 1;  // cells
 constexpr float kJambM = 0.25F;           // of an opening in an inner wall
 constexpr float kLying = 0.7F;            // |z| of a normal: a table's, a sill's
 constexpr std::int32_t kAround = 3;       // rows of cells above and below
-constexpr std::int32_t kLeastOfThem = 2;  // a jamb is higher
+constexpr std::int32_t kLeastOfThem = 2;  // cells of a column among these: jambs are higher
 
 [[nodiscard]] bool is_lying(const Surfel& surfel) noexcept {
   return has_normal(surfel.shape) && std::abs(surfel.direction.z()) > kLying;
@@ -33,7 +32,7 @@ constexpr std::int32_t kLeastOfThem = 2;  // a jamb is higher
   const PlaneGrid& grid = grids.grid(wall);
   const std::int32_t at_column = grid.column_of(p);
   const std::int32_t at_row = grid.row_of(p);
-  const auto most_are = [&](std::int32_t column, const auto& test) {
+  const auto some_are = [&](std::int32_t column, const auto& test) {
     if (column < 0 || column >= grid.columns) return false;
     std::int32_t count = 0;
     const std::int32_t end = std::min(grid.rows, at_row + kAround + 1);
@@ -47,8 +46,8 @@ constexpr std::int32_t kLeastOfThem = 2;  // a jamb is higher
   };
   const auto is_hole = [](const Cell& cell) { return cell.is_hole(); };
   const auto ends = [&](std::int32_t side) {
-    return most_are(at_column + side, is_hole) &&
-           (most_are(at_column, is_wall) || most_are(at_column - side, is_wall));
+    return some_are(at_column + side, is_hole) &&
+           (some_are(at_column, is_wall) || some_are(at_column - side, is_wall));
   };
   return ends(-1) || ends(1);
 }
