@@ -133,22 +133,5 @@ TEST(RobustLayers, RemovesABoardThatIsThinnerThanTheNoise) {
   EXPECT_GT(kept.share_of(test::kWalls), kKept);
 }
 
-// The lidar stands, and from one revolution to the next more or less of the boards is in view.
-TEST(RobustLayers, BoardsDoNotDrawThePose) {
-  BoxRoom room;
-  room.boxes = {{{3.96, -3.0, -0.4}, {4.0, 0.0, 1.1}},
-                {{-4.0, 0.0, -0.4}, {-3.97, 2.4, 0.9}},
-                {{-2.0, -3.0, -0.4}, {2.0, -2.97, 0.8}}};
-  for (const std::uint64_t seed : {1U, 101U, 201U}) {
-    RobustCut robust({}, test::kMostPoints);
-    (void)test::last_of(robust, room, {.tilt_deg = 30.0, .noise_m = 0.01, .seed = seed}, 28);
-    Vec3f farthest = Vec3f::Zero();
-    for (const robust::Surfel& surfel : robust.model().surfels) {
-      farthest = farthest.cwiseMax(surfel.origin.cwiseAbs());
-    }
-    EXPECT_LT(farthest.head<2>().maxCoeff(), 0.005F) << seed;
-  }
-}
-
 }  // namespace
 }  // namespace convexcut

@@ -165,26 +165,6 @@ TEST(RobustRules, RemovesTheSideOfADesk) {
   EXPECT_LT(cut(room, {}).share_of(0), kMostlyRemoved);
 }
 
-TEST(RobustRules, TheLatticeLiesAlongTheWalls) {
-  test::LabelledCloud seen = test::revolution_in({}, {});
-  const Eigen::AngleAxisf turn(0.3F, Vec3f::UnitZ());
-  for (std::size_t i = 0; i < seen.cloud.size(); ++i) {
-    const Vec3f p = turn * Vec3f(seen.cloud.x[i], seen.cloud.y[i], seen.cloud.z[i]);
-    seen.cloud.x[i] = p.x();
-    seen.cloud.y[i] = p.y();
-  }
-  std::vector<Label> labels(seen.cloud.size());
-  RobustCut robust({}, test::kMostPoints);
-  ASSERT_EQ(robust.label(seen.cloud.view(), labels), CutStatus::ok);
-  int walls = 0;
-  for (const robust::Plane& plane : robust.model().planes) {
-    if (!plane.vertical || plane.surfels < 50) continue;
-    ++walls;
-    EXPECT_LT(std::min(std::abs(plane.normal.x()), std::abs(plane.normal.y())), 0.02F);
-  }
-  EXPECT_EQ(walls, 4);
-}
-
 // Books on the walls are no noise of the sensor, and a floor that is met at an angle shows less.
 TEST(RobustRules, TheSensorsNoiseIsToldAlongTheBeam) {
   BoxRoom room;
@@ -216,49 +196,6 @@ TEST(RobustRules, WhatIsSeenAlongItselfIsNoSurface) {
   ASSERT_EQ(robust.label(seen.cloud.view(), kept.labels), CutStatus::ok);
   EXPECT_LT(kept.share_of(kDisc), kRemoved);
   EXPECT_GT(kept.share_of(test::kWalls), 0.98);
-}
-
-// A corridor whose ends are out of view from the fourth revolution on: the rig may stand by then.
-TEST(RobustRules, AMotionThatNoPlaneHoldsDiesOut) {
-  constexpr double kStepM = 0.06;
-  BoxRoom corridor;
-  corridor.walls = {{-4.0, -1.2, -1.2}, {4.0, 1.2, 1.6}};
-  RobustCut robust({}, test::kMostPoints);
-  for (int i = 0; i < 12; ++i) {
-    const bool moves = i < 3;
-    if (!moves) corridor.walls = {{-60.0, -1.2, -1.2}, {60.0, 1.2, 1.6}};
-    const test::Sight sight{.position = {moves ? kStepM * i : 2 * kStepM, 0.0, 0.0},
-                            .step = {moves ? kStepM : 0.0, 0.0, 0.0},
-                            .seed = static_cast<std::uint64_t>(i)};
-    (void)test::last_of(robust, corridor, sight, 1);
-  }
-  float farthest = 0.0F;
-  for (const robust::Surfel& surfel : robust.model().surfels) {
-    farthest = std::max(farthest, surfel.origin.x());
-  }
-  EXPECT_GT(farthest, 1.5F * static_cast<float>(kStepM));
-  EXPECT_LT(farthest, 8.0F * static_cast<float>(kStepM));
-}
-
-// The walls across the motion are too far to be seen; a cupboard that stands before none is.
-TEST(RobustRules, FurnitureHoldsThePose) {
-  constexpr double kStepM = 0.05;
-  constexpr int kRevolutions = 6;
-  BoxRoom corridor;
-  corridor.walls = {{-60.0, -2.0, -1.2}, {60.0, 2.0, 1.6}};
-  corridor.boxes = {{{2.5, -0.8, -1.2}, {2.9, 0.8, 0.2}}};
-  RobustCut robust({}, test::kMostPoints);
-  for (int i = 0; i < kRevolutions; ++i) {
-    const test::Sight sight{.position = {kStepM * i, 0.0, 0.0},
-                            .step = {kStepM, 0.0, 0.0},
-                            .seed = static_cast<std::uint64_t>(i)};
-    EXPECT_LT(test::last_of(robust, corridor, sight, 1).share_of(0), kRemoved);
-  }
-  float farthest = 0.0F;
-  for (const robust::Surfel& surfel : robust.model().surfels) {
-    farthest = std::max(farthest, surfel.origin.x());
-  }
-  EXPECT_NEAR(farthest, kStepM * (kRevolutions - 1), 0.02);
 }
 
 // A board hangs a hand's breadth beside its upper corner; or its foot is hidden as well.
@@ -447,41 +384,6 @@ TEST(RobustRules, BelievesHardlyAnyVoxelOfIsolatedGhosts) {
   EXPECT_GT(behind, 100);
   EXPECT_LT(believed, behind / 100 + 1);
   EXPECT_GT(kept.share_of(test::kWalls), 0.985);
-}
-
-// About half of what the mirror shows is seen without it as well, the rest is above the view.
-TEST(RobustRules, RemovesAMirrorImageThatIsPartlyOutOfView) {
-  BoxRoom room;
-  room.has_mirror = true;
-  room.mirror = {-1.0, 1.0, -0.1, 0.8};
-  const Kept kept = cut(room, {});
-  EXPECT_LT(kept.share_of(test::kGhost), kRemoved);
-  EXPECT_GT(kept.share_of(test::kWalls), 0.98);
-}
-
-// Its end is as far behind the hole as the room's is before it; but a cupboard stands in one of
-// them.
-TEST(RobustRules, KeepsARoomBehindAHoleThatIsAsLargeAsThisOne) {
-  BoxRoom room;
-  room.walls = {{-4.0, -9.0, -1.2}, {4.0, 3.0, 1.6}};
-  room.boxes = {{{-4.0, -3.1, -1.2}, {-1.0, -3.0, 1.6}},
-                {{1.0, -3.1, -1.2}, {4.0, -3.0, 1.6}},
-                {{-1.0, -3.1, -1.2}, {1.0, -3.0, -0.6}},
-                {{-1.6, -7.5, -1.2}, {-0.4, -7.1, 0.8}}};
-  EXPECT_GT(cut(room, {}).share_of(test::kWalls), 0.98);
-}
-
-// A third of its end is as far behind the hole as the room's end is before it.
-TEST(RobustRules, KeepsARoomBehindAHoleThatIsPartlyAsThisOne) {
-  BoxRoom room;
-  room.walls = {{-4.0, -9.0, -1.2}, {4.0, 3.0, 1.6}};
-  room.boxes = {{{-4.0, -9.0, -1.2}, {1.0, -7.5, 1.6}},
-                {{-4.0, -3.1, -1.2}, {-1.0, -3.0, 1.6}},
-                {{1.0, -3.1, -1.2}, {4.0, -3.0, 1.6}},
-                {{-1.0, -3.1, -1.2}, {1.0, -3.0, -0.6}}};
-  const Kept kept = cut(room, {});
-  EXPECT_GT(kept.share_of(0), kKept);
-  EXPECT_GT(kept.share_of(test::kWalls), 0.98);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Shapes of voxels where surfaces meet. That their principal axes are right is
-// robust_window_test's.
+// robust_shape_kernels_test's.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What RobustCut keeps from call to call equals what is made anew from the same revolutions; shapes
-// are those of Eigen's closed form, earlier decisions weigh as they should, and no instruction set
-// changes a label. Says nothing about what the labels are worth.
+// What RobustCut keeps from call to call equals what is made anew from the same revolutions, and no
+// instruction set changes a label. Says nothing about what the labels are worth.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,19 +10,14 @@
 #include <map>
 #include <random>
 #include <set>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/convex_cut/robust/cell_set.hpp"
-#include "core/convex_cut/robust/shape_kernels.hpp"
 #include "core/convex_cut/robust/window.hpp"
 #include "core/simd/simd_path.hpp"
-#include "tests/core/convex_cut/every_simd_path.hpp"
 #include "tests/core/convex_cut/robust/room_cut.hpp"
-#include "tests/support/effort.hpp"
 
 namespace convexcut {
 namespace {
@@ -266,174 +260,6 @@ TEST_F(RobustShapesOfAFloor, AreTakenInTurnsWhereTheyHardlyChange) {
 TEST_F(RobustShapesOfAFloor, AreTakenAtOnceWhereTheyChangeMuch) {
   const std::vector<bool> changed = add(uneven_floor(random_, 200));
   EXPECT_EQ(std::ranges::count(changed, true), kFloorVoxels);
-}
-
-// Points about the middle of a voxel: on a plane, a line, anywhere, or all of them one.
-[[nodiscard]] robust::Moments random_moments(std::mt19937& random, int kind) {
-  const auto any = [&](std::int32_t from, std::int32_t to) {
-    return std::uniform_int_distribution<std::int32_t>(from, to)(random);
-  };
-  robust::Moments moments;
-  for (int points = any(1, 9); points > 0; --points) {
-    const std::int32_t along = any(-100, 100);
-    const std::int32_t across = any(-100, 100);
-    if (kind == 0) moments.add_mm(along, across, along / 4 - across / 7 + any(-9, 9));
-    if (kind == 1) moments.add_mm(along / 3 + any(-3, 3), along + any(-3, 3), any(-3, 3));
-    if (kind == 2) moments.add_mm(along, across, any(-100, 100));
-    if (kind == 3) moments.add_mm(7, -7, 7);
-    if (kind == 4) moments.add_mm(along, across, 0);
-  }
-  return moments;
-}
-
-struct ExpectedShape {
-  robust::Shape shape = robust::Shape::other;
-  Vec3f direction = Vec3f::Zero();
-};
-
-// Step by step in float, and by Eigen.
-[[nodiscard]] ExpectedShape expected_shape(const robust::Around& around) {
-  constexpr std::array<std::array<Eigen::Index, 2>, 6> kRowsAndColumns{
-      {{0, 0}, {1, 0}, {2, 0}, {1, 1}, {2, 1}, {2, 2}}};
-  float count = 0.0F;
-  Vec3f sum = Vec3f::Zero();
-  robust::Mat3f products = robust::Mat3f::Zero();
-  for (std::size_t k = 0; k < around.count; ++k) {
-    const robust::Moments& m = *around.moments[k];
-    const int step = around.step[k];
-    const Vec3f shift =
-        Vec3f(static_cast<float>(step / 9 - 1), static_cast<float>(step / 3 % 3 - 1),
-              static_cast<float>(step % 3 - 1)) *
-        robust::kVoxelM;
-    const auto n = static_cast<float>(m.count);
-    const Vec3f own = Vec3f(static_cast<float>(m.sum_mm[0]), static_cast<float>(m.sum_mm[1]),
-                            static_cast<float>(m.sum_mm[2])) *
-                      1e-3F;
-    count += n;
-    sum += own + n * shift;
-    for (std::size_t i = 0; i < 6; ++i) {
-      const auto [r, c] = kRowsAndColumns[i];
-      products(r, c) += static_cast<float>(m.products_mm2[i]) * 1e-6F + shift[r] * own[c] +
-                        own[r] * shift[c] + n * shift[r] * shift[c];
-      products(c, r) = products(r, c);
-    }
-  }
-  if (count < 6.0F) return {};
-  const Vec3f mean = sum / count;
-  Eigen::SelfAdjointEigenSolver<robust::Mat3f> axes;
-  axes.computeDirect(products / count - mean * mean.transpose());
-  const Vec3f& extent2 = axes.eigenvalues();
-  constexpr float kThickness2 = 0.035F * 0.035F;
-  if (extent2[0] < kThickness2 && extent2[1] > 4.0F * std::max(extent2[0], 2e-4F)) {
-    return {robust::Shape::plane, axes.eigenvectors().col(0)};
-  }
-  if (extent2[1] < 2.0F * kThickness2 && extent2[2] > 6.0F * extent2[1]) {
-    return {robust::Shape::line, axes.eigenvectors().col(2)};
-  }
-  return {};
-}
-
-#ifdef EIGEN_VECTORIZE_NEON
-constexpr bool kEigenHasPairs = true;
-#else
-constexpr bool kEigenHasPairs = false;
-#endif
-
-class RobustShapes : public test::EverySimdPath {};
-
-TEST_P(RobustShapes, AreEigensBitByBit) {
-  std::mt19937 random(9);
-  std::array<std::size_t, 3> seen{};
-  for (std::uint64_t round = 0; round < test::repetitions(1'000); ++round) {
-    std::array<std::array<robust::Moments, robust::Around::kMost>, robust::kShapesAtOnce> moments;
-    std::array<robust::Around, robust::kShapesAtOnce> around;
-    const std::size_t count = 1 + random() % robust::kShapesAtOnce;
-    for (std::size_t i = 0; i < count; ++i) {
-      const int kind = static_cast<int>(random() % 5);
-      const bool alone = random() % 4 == 0;
-      for (std::uint8_t step = 0; step < robust::Around::kMost; ++step) {
-        const bool is_middle = step == robust::Around::kMiddle;
-        if (!is_middle && (alone || (kind == 0 && step % 3 != 1) || random() % 2 == 0)) continue;
-        moments[i][step] = random_moments(random, kind);
-        around[i].moments[around[i].count] = &moments[i][step];
-        around[i].step[around[i].count++] = step;
-      }
-    }
-    robust::ShapeColumns shapes;
-    robust::take_shapes(std::span(around).first(count), shapes);
-    for (std::size_t i = 0; i < count; ++i) {
-      const ExpectedShape expected = expected_shape(around[i]);
-      ++seen.at(static_cast<std::size_t>(expected.shape));
-      ASSERT_EQ(shapes.is_plane[i] != 0, expected.shape == robust::Shape::plane);
-      ASSERT_EQ(shapes.is_line[i] != 0, expected.shape == robust::Shape::line);
-      if (expected.shape == robust::Shape::other) continue;
-      const Vec3f direction(shapes.x[i], shapes.y[i], shapes.z[i]);
-      // Eigen's own vectors of two (NEON) add three products in another order.
-      ASSERT_LE((direction - expected.direction).cwiseAbs().maxCoeff(),
-                kEigenHasPairs ? 1e-5F : 0.0F);
-    }
-  }
-  for (const std::size_t shapes : seen) EXPECT_GT(shapes, test::repetitions(100));
-}
-
-CONVEXCUT_ON_EVERY_SIMD_PATH(RobustShapes);
-
-// The last of the answers to these decisions: s for structure, o for an object.
-[[nodiscard]] robust::Verdict verdict_after(std::string_view decisions) {
-  robust::Verdicts verdicts;
-  robust::Verdict verdict = robust::Verdict::as_now;
-  for (const char decision : decisions) verdict = verdicts.add(decision == 's');
-  return verdict;
-}
-
-TEST(RobustCellSet, TakesOutWhatIsWithinReachAndNothingElse) {
-  constexpr std::int32_t kColumns = 11;
-  constexpr std::int32_t kRows = 9;
-  using Places = std::set<std::array<std::int32_t, 2>>;
-  std::mt19937 random(9);
-  robust::CellSet set(kColumns * kRows);
-  for (int i = 0; i < 200; ++i) {
-    Places expected;
-    set.assign(kColumns, kRows, false);
-    for (std::int32_t k = 0; k < kColumns * kRows; ++k) {
-      if (random() % 2 == 0) continue;
-      set.insert(k % kColumns, k / kColumns);
-      expected.insert({k % kColumns, k / kColumns});
-    }
-    const auto column = static_cast<std::int32_t>(2 + random() % (kColumns - 4));
-    const auto row = static_cast<std::int32_t>(2 + random() % (kRows - 4));
-    Places taken;
-    set.take_around(column, row, [&](std::int32_t c, std::int32_t r) { taken.insert({c, r}); });
-    for (std::int32_t k = 0; k < kColumns * kRows; ++k) {
-      const std::array<std::int32_t, 2> at{k % kColumns, k / kColumns};
-      const bool within = std::abs(at[0] - column) <= 2 && std::abs(at[1] - row) <= 2;
-      const bool was_in = expected.contains(at);
-      ASSERT_EQ(taken.contains(at), was_in && within);
-      ASSERT_EQ(set.contains(at[0], at[1]), was_in && !within);
-    }
-  }
-}
-
-TEST(RobustVerdicts, TheFirstRevolutionDecidesAlone) {
-  EXPECT_EQ(verdict_after("s"), robust::Verdict::as_now);
-  EXPECT_EQ(verdict_after("o"), robust::Verdict::as_now);
-}
-
-TEST(RobustVerdicts, OneRevolutionChangesNothingAfterMany) {
-  EXPECT_EQ(verdict_after("sssso"), robust::Verdict::structure);
-  EXPECT_EQ(verdict_after("oooos"), robust::Verdict::object);
-}
-
-TEST(RobustVerdicts, TwoInARowMakeStructureAndHalfOfAllAnObject) {
-  EXPECT_EQ(verdict_after("ooooooooss"), robust::Verdict::as_now);
-  EXPECT_EQ(verdict_after("ssssooo"), robust::Verdict::structure);
-  EXPECT_EQ(verdict_after("ssssoooo"), robust::Verdict::as_now);
-}
-
-TEST(RobustVerdicts, WhatIsLongPastFades) {
-  const std::string past(200, 's');
-  EXPECT_EQ(verdict_after(past + std::string(10, 'o')), robust::Verdict::structure);
-  EXPECT_EQ(verdict_after(past + std::string(12, 'o')), robust::Verdict::as_now);
 }
 
 TEST(RobustCut, EveryInstructionSetGivesTheSameLabels) {
