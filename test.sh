@@ -59,6 +59,12 @@ only_programs_failed() {
     grep -qvxFf <(ctest --test-dir "build/$1" -N -L '^programs$' | sed -n 's/^ *Test *#[0-9]*: //p')
 }
 
+# that_failed PRESET: a regular expression of the names of the tests that failed. Not ctest's own --rerun-failed: that
+# goes by numbers, which -E shifts.
+that_failed() {
+  sed -E 's/^[0-9]*://; s/[][().*+?^$|\\]/\\&/g; s/.*/^&$/' "build/$1/Testing/Temporary/LastTestsFailed.log" | paste -s -d '|'
+}
+
 # ctest_preset PRESET [ctest options]: adds the counts of test cases to ours.
 ctest_preset() {
   local preset=$1 log="$logs/ctest-$1.log" started=$SECONDS status cases total bad skip
@@ -74,7 +80,7 @@ ctest_preset() {
   for again in 1 2; do
     if [ $status = 0 ] || grep -qE 'runtime error:|Sanitizer' "$log" || ! only_programs_failed "$preset"; then break; fi
     log=$logs/ctest-$preset-again-$again.log
-    ctest --test-dir "build/$preset" --rerun-failed --output-on-failure >"$log" 2>&1
+    ctest --test-dir "build/$preset" -R "$(that_failed "$preset")" --output-on-failure >"$log" 2>&1
     status=$?
     cases_of "$preset" "$cases.again"
     echo "        failed beside others, and run again alone: $(tr '\n' ' ' <"$cases.again")(before: $logs/ctest-$preset*.log)"
