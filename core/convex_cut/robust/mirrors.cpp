@@ -66,12 +66,9 @@ void for_each_around(const PlaneGrid& grid, std::uint32_t cell, std::int32_t rea
 
 // Whether a ray passes the place and goes on.
 [[nodiscard]] bool is_seen_free(const Rays& rays, const Vec3f& place) noexcept {
-  const auto ray = [&](std::size_t i, std::size_t first) {
-    return Vec3f(rays.column(first)[i], rays.column(first + 1)[i], rays.column(first + 2)[i]);
-  };
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Vec3f origin = ray(i, 0);
-    const Vec3f way = ray(i, 3) - origin;
+    const Vec3f origin = rays.origin(i);
+    const Vec3f way = rays.end(i) - origin;
     const Vec3f to_place = place - origin;
     const float length_m = way.norm();
     const float passed_m = to_place.dot(way) / length_m;

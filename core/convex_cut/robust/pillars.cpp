@@ -233,21 +233,28 @@ bool Pillars::stands_free(const Rays& rays, const Footprint& footprint,
   grid.first_up = cells(bottom_m) + 1;
   grid.rows = kLevels;
   const std::int32_t top = cells(kVoxelM * static_cast<float>(footprint.height));
+  // A wall that a pillar is at may be closer behind its middle than its own sides are. A bookcase
+  // is seen so too, but wall is seen over it, or the next one beside it.
+  const float clear_m = half_m + kBehindM;
   int through = 0;
-  bool left = false;
-  bool right = false;
+  std::array<bool, 2> free{};   // on its left, on its right
+  std::array<bool, 2> clear{};  // and as far behind as nothing of the pillar is
   for (std::size_t begin = 0; begin < rays.size() && through <= kFewRays; begin += kRaysAtOnce) {
-    find_passages(rays, begin, plane, grid, half_m + kBehindM, kBehindM, passages_);
+    find_passages(rays, begin, plane, grid, at_wall_ ? kBehindM : clear_m, kBehindM, passages_);
     for (std::size_t i = 0; i < passages_.count; ++i) {
       const float off_m = passages_.along_m[i] - at_m;
+      const bool below_top = passages_.cell[i] < top * grid.columns;
+      const bool is_clear = plane.height_of(rays.end(passages_.ray[i])) <= -clear_m;
       if (std::abs(off_m) < kCore * half_m) {
-        ++through;
-      } else if (std::abs(off_m) > half_m + kBesideM && passages_.cell[i] < top * grid.columns) {
-        (off_m < 0.0F ? left : right) = true;
+        through += is_clear || !below_top ? 1 : 0;
+      } else if (std::abs(off_m) > half_m + kBesideM && below_top) {
+        const std::size_t side = off_m < 0.0F ? 0 : 1;
+        free[side] = true;
+        clear[side] = clear[side] || is_clear;
       }
     }
   }
-  return through <= kFewRays && (at_wall_ ? left || right : left && right);
+  return through <= kFewRays && ((free[0] && free[1]) || (at_wall_ && (clear[0] || clear[1])));
 }
 
 }  // namespace convexcut::robust

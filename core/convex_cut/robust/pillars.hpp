@@ -16,8 +16,8 @@ namespace convexcut::robust {
 
 // Pillars and columns by their footprint, since planes cover only a part of a round one, and voxels
 // at the edges of a narrow one have no normal: compact, as thin as a surface at all heights
-// together, and standing free or at a wall. Nothing passes through it, nor over it as far as the
-// view reaches.
+// together, and standing free, or at a wall that is seen on both sides of it or well behind it.
+// Nothing passes through it, nor over it as far as the view reaches.
 class Pillars {
  public:
   explicit Pillars(std::size_t max_surfels);

@@ -33,12 +33,19 @@ class Rays {
   }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] std::uint32_t surfel(std::size_t ray) const noexcept { return surfels_[ray]; }
+  [[nodiscard]] Vec3f origin(std::size_t ray) const noexcept { return point(ray, 0); }
+  [[nodiscard]] Vec3f end(std::size_t ray) const noexcept { return point(ray, 3); }
   // 0 … 2: the origins' coordinates, 3 … 5: the ends'.
   [[nodiscard]] const float* column(std::size_t i) const noexcept {
     return values_.data() + i * stride_;
   }
 
  private:
+  [[nodiscard]] Vec3f point(std::size_t ray, std::size_t first_column) const noexcept {
+    return {column(first_column)[ray], column(first_column + 1)[ray],
+            column(first_column + 2)[ray]};
+  }
+
   std::size_t stride_;
   std::size_t size_ = 0;
   Workspace<float> values_;

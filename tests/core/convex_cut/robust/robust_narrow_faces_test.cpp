@@ -2,6 +2,7 @@
 //
 // One rule of RobustCut on pillars, piers, stands and people a test: what is narrow. How often they
 // are right in furnished rooms is measured by bench/accuracy.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -105,6 +106,29 @@ TEST(RobustNarrowFaces, KeepsAColumnWhoseFootprintIsTheSameUpToTheEndOfTheView) 
   EXPECT_LT(kept_of_column(1.6, 0.0, {.pillars = false}), 0.8);  // planes alone
   EXPECT_LT(kept_of_column(1.6, 0.08), kMostlyRemoved);
   EXPECT_LT(kept_of_column(0.15, 0.0), kMostlyRemoved);
+}
+
+// A round pillar that is half in a wall, which ends rays closer behind its middle than its own
+// sides are. One that wall is seen over may be a cupboard, and one whose other side is hidden the
+// end of a row of them.
+TEST(RobustNarrowFaces, KeepsAPillarOnAWallThatIsSeenOnBothSidesOfIt) {
+  const auto kept = [](double top_m, bool hidden) {
+    constexpr double kRadiusM = 0.3;
+    BoxRoom room;
+    room.walls = {{-4.0, -3.0, -1.2}, {3.0, 3.0, 1.6}};
+    for (const double half : {0.08, 0.16, 0.22, 0.26, 0.29}) {
+      const double across = std::sqrt(kRadiusM * kRadiusM - half * half);
+      room.boxes.push_back({{2.9 - half, 0.1 - across, -1.2}, {3.0, 0.1 + across, top_m}});
+    }
+    const int pillar = static_cast<int>(room.boxes.size());
+    if (hidden) room.boxes.push_back({{1.6, 0.25, -1.2}, {1.9, 0.9, 1.6}});
+    Kept of = cut(room, {}, 4);
+    for (int& box : of.cloud.box) box = box < pillar ? std::min(box, 0) : test::kWalls;
+    return of.share_of(0);
+  };
+  EXPECT_GT(kept(1.6, false), kKept);
+  EXPECT_LT(kept(-0.1, false), kRemoved);
+  EXPECT_LT(kept(1.6, true), kRemoved);
 }
 
 // A stand of a fair: its back is before the wall, its sides come forward. One that is as long and
