@@ -41,18 +41,37 @@ constexpr std::ptrdiff_t kMostAbove = 2;
 
 }  // namespace
 
+void FlatSurfaces::Part::take_in(const Part& other) noexcept {
+  cells += other.cells;
+  low = low.cwiseMin(other.low);
+  high = high.cwiseMax(other.high);
+}
+
+// Together no wider than a beam.
+bool FlatSurfaces::is_in_line(const Part& a, const Part& b) noexcept {
+  return a.plane == b.plane &&
+         level_size_m(a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)).minCoeff() <= kMostBeamM;
+}
+
+bool FlatSurfaces::is_beam(const Part& part) noexcept {
+  const Eigen::Array2f size_m = level_size_m(part.low, part.high);
+  return size_m.maxCoeff() > kLeastBeamM && size_m.minCoeff() < kMostBeamM;
+}
+
 // Gaps within a part, and the ring around it, are as wide as CellSet reaches.
 FlatSurfaces::FlatSurfaces() : unclaimed_(kMostCellsOfAPart), outside_(kMostCellsOfAPart) {
   part_.reserve(kMostCellsOfAPart);
   ring_.reserve(kMostCellsOfAPart);
   parts_.reserve(2 * kMostParts);
   open_parts_.reserve(kMostParts);
+  undersides_.reserve(kMostParts);
 }
 
 void FlatSurfaces::find(Model& model, PlaneGrids& grids, const Vec3f& origin,
                         bool free_space) noexcept {
   parts_.clear();
   open_parts_.clear();
+  undersides_.clear();
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     if (model.planes[k].vertical || model.planes[k].edge_on) continue;
     const PlaneGrid& grid = grids.grid(k);
@@ -132,9 +151,7 @@ std::optional<FlatSurfaces::Part> FlatSurfaces::whole_floor(const Model& model,
         whole = part;
         continue;
       }
-      whole->cells += part.cells;
-      whole->low = whole->low.cwiseMin(part.low);
-      whole->high = whole->high.cwiseMax(part.high);
+      whole->take_in(part);
     }
     if (whole && (!largest || whole->cells > largest->cells)) largest = whole;
   }
@@ -179,30 +196,37 @@ void FlatSurfaces::reject_undersides(const Model& model) noexcept {
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     ceiling.at(k) = cells.at(k) >= kLeastCeilingCells && is_topmost(model, k);
   }
-  std::erase_if(parts_,
-                [&](const Part& part) { return is_underside(part) && !ceiling.at(part.plane); });
+  std::erase_if(parts_, [&](const Part& part) {
+    const bool rejected = is_underside(part) && !ceiling.at(part.plane);
+    if (rejected) undersides_.push_back(part);
+    return rejected;
+  });
 }
 
 // The undersides of beams: long, with the parts of the same plane in one line, and close under the
 // ceiling. Other beams may be as low.
 void FlatSurfaces::add_beams(const Model& model) noexcept {
+  const auto is_close_to_ceiling = [&](const Part& part) {
+    return model.planes[part.plane].normal.z() < -kLevel &&
+           part.low.z() >= model.ceiling_z - kBeamHeightM && part.high.z() <= model.ceiling_z;
+  };
   for (const Part& part : open_parts_) {
-    if (model.planes[part.plane].normal.z() > -kLevel ||
-        part.low.z() < model.ceiling_z - kBeamHeightM || part.high.z() > model.ceiling_z) {
-      continue;
-    }
-    Vec3f low = part.low;
-    Vec3f high = part.high;
+    if (!is_close_to_ceiling(part)) continue;
+    Part line = part;
     for (const Part& other : open_parts_) {
-      if (other.plane != part.plane) continue;
-      const Vec3f wider_low = low.cwiseMin(other.low);
-      const Vec3f wider_high = high.cwiseMax(other.high);
-      if (level_size_m(wider_low, wider_high).minCoeff() > kMostBeamM) continue;
-      low = wider_low;
-      high = wider_high;
+      if (is_in_line(line, other)) line.take_in(other);
     }
-    const Eigen::Array2f size_m = level_size_m(low, high);
-    if (size_m.maxCoeff() > kLeastBeamM && size_m.minCoeff() < kMostBeamM) parts_.push_back(part);
+    if (is_beam(line)) parts_.push_back(part);
+  }
+  // Of a beam's end, between a wall and the border of the view, all that surrounds it may be
+  // hidden.
+  const std::size_t found = parts_.size();
+  for (const Part& end : undersides_) {
+    const auto goes_on = [&](const Part& part) { return is_beam(part) && is_in_line(part, end); };
+    const auto last = parts_.begin() + static_cast<std::ptrdiff_t>(found);
+    if (is_close_to_ceiling(end) && std::any_of(parts_.begin(), last, goes_on)) {
+      parts_.push_back(end);
+    }
   }
 }
 

@@ -34,6 +34,8 @@ class FlatSurfaces {
     std::size_t cells = 0;
     Vec3f low, high;  // of its cells' centres
     bool of_a_table = false;
+
+    void take_in(const Part& other) noexcept;
   };
   void take_unclaimed(const PlaneGrids& grids, const PlaneGrid& grid) noexcept;
   void add_part(const Plane& plane, std::size_t k, const PlaneGrid& grid, std::int16_t id,
@@ -47,6 +49,8 @@ class FlatSurfaces {
   void reject_table_tops(const Model& model, const Vec3f& origin) noexcept;
   void reject_undersides(const Model& model) noexcept;
   static void accept(Model& model, PlaneGrids& grids, const Part& part) noexcept;
+  [[nodiscard]] static bool is_in_line(const Part& a, const Part& b) noexcept;
+  [[nodiscard]] static bool is_beam(const Part& part) noexcept;
   void add_beams(const Model& model) noexcept;
   static void find_levels(Model& model, const Vec3f& origin) noexcept;
   void collect_part(PlaneGrids& grids, const PlaneGrid& grid, Place seed, std::int16_t id) noexcept;
@@ -58,6 +62,7 @@ class FlatSurfaces {
   CellSet outside_;    // cells that are neither in the part at hand nor in its ring
   std::vector<Part> parts_;
   std::vector<Part> open_parts_;  // that are passed around
+  std::vector<Part> undersides_;  // that are not, and are too small for a ceiling
 };
 
 }  // namespace convexcut::robust
