@@ -232,13 +232,9 @@ void FlatSurfaces::add_beams(const Model& model) noexcept {
 
 void FlatSurfaces::accept(Model& model, PlaneGrids& grids, const Part& part) noexcept {
   model.planes[part.plane].accepted = true;
-  const PlaneGrid& grid = grids.grid(part.plane);
-  for (std::int32_t row = 0; row < grid.rows; ++row) {
-    for (std::int32_t column = 0; column < grid.columns; ++column) {
-      Cell& cell = grids.cell(grid, column, row);
-      if (cell.part == part.id) cell.structure = true;
-    }
-  }
+  grids.for_each_cell(grids.grid(part.plane), [&](Cell& cell) {
+    if (cell.part == part.id) cell.structure = true;
+  });
 }
 
 void FlatSurfaces::find_levels(Model& model, const Vec3f& origin) noexcept {

@@ -118,8 +118,9 @@ class PlaneGrids {
   }
   template <class Visit>
   void for_each_cell(const PlaneGrid& grid, Visit&& visit) const noexcept {
-    for (const Cell& cell : std::span(cells_).subspan(grid.first_cell, grid.cell_count()))
+    for (const Cell& cell : std::span(cells_).subspan(grid.first_cell, grid.cell_count())) {
       visit(cell);
+    }
   }
   // Calls visit(cell) for those of a segment's columns, from the bottom up, column by column.
   template <class Visit>

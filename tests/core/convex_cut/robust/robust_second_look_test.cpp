@@ -83,12 +83,7 @@ class SecondLook : public ::testing::Test {
   }
   template <class Visit>
   void for_each_cell(Visit&& visit) {
-    const PlaneGrid& grid = grids_.grid(0);
-    for (std::int32_t row = 0; row < grid.rows; ++row) {
-      for (std::int32_t column = 0; column < grid.columns; ++column) {
-        visit(grids_.cell(grid, column, row));
-      }
-    }
+    grids_.for_each_cell(grids_.grid(0), visit);
   }
   [[nodiscard]] WallSegment& face() { return model_.segments.front(); }
   [[nodiscard]] bool is_accepted(const Sighting& sighting = {}) {
