@@ -374,21 +374,25 @@ void RobustCut::steady(const CloudView& cloud, std::span<Label> labels) const no
       const auto voxel = static_cast<std::size_t>(in_revolution);
       const robust::Verdict verdict = near_[voxel].verdict;
       if (verdict == robust::Verdict::object) labels[begin + i] = Label::other;
-      if (verdict == robust::Verdict::structure &&
-          is_on_surface({moved.x[i], moved.y[i], moved.z[i]}, voxel)) {
+      if (is_restored(verdict, {moved.x[i], moved.y[i], moved.z[i]}, voxel)) {
         labels[begin + i] = Label::structure;
       }
     }
   }
 }
 
-// Of the window's piece of surface in a voxel of the revolution.
-bool RobustCut::is_on_surface(const Vec3f& p, std::size_t voxel) const noexcept {
+// Whether the point is structure by what was decided of its voxel in earlier revolutions: on the
+// window's piece of surface there.
+bool RobustCut::is_restored(robust::Verdict verdict, const Vec3f& p,
+                            std::size_t voxel) const noexcept {
+  const bool is_back = verdict == robust::Verdict::structure_again;
+  if (verdict != robust::Verdict::structure && !is_back) return false;
   const std::int32_t merged = window_.merged(voxel);
   if (!is_known(merged)) return false;
   const Surfel& surfel = model_.surfels[static_cast<std::size_t>(merged)];
-  return surfel.shape == robust::Shape::plane && !surfel.mirrored &&
-         std::abs(surfel.direction.dot(p - surfel.mean)) <= parameters_.band_m;
+  if (surfel.mirrored) return false;
+  if (is_back ? !has_normal(surfel.shape) : surfel.shape != robust::Shape::plane) return is_back;
+  return std::abs(surfel.direction.dot(p - surfel.mean)) <= parameters_.band_m;
 }
 
 }  // namespace convexcut

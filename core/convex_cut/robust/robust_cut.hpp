@@ -38,7 +38,7 @@ namespace convexcut {
 
 class RobustCut {
  public:
-  // Allocates everything it will ever need: 4 bytes a point and about 78 MB for thirty
+  // Allocates everything it will ever need: 4 bytes a point and about 80 MB for thirty
   // revolutions. Throws std::invalid_argument when the parameters are not valid or max_points
   // exceeds 2³¹, and std::bad_alloc.
   RobustCut(const RobustParameters& parameters, std::size_t max_points);
@@ -116,7 +116,8 @@ class RobustCut {
   void label_points(const CloudView& cloud, std::span<Label> labels) noexcept;
   [[nodiscard]] bool judge_voxels() noexcept;
   void steady(const CloudView& cloud, std::span<Label> labels) const noexcept;
-  [[nodiscard]] bool is_on_surface(const Vec3f& p, std::size_t voxel) const noexcept;
+  [[nodiscard]] bool is_restored(robust::Verdict verdict, const Vec3f& p,
+                                 std::size_t voxel) const noexcept;
 
   RobustParameters parameters_;
   std::size_t max_points_;

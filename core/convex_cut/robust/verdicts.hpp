@@ -11,8 +11,10 @@
 namespace convexcut::robust {
 
 enum class Verdict : std::uint8_t {
-  as_now,     // what the revolution says of each point
-  structure,  // so far, whatever the revolution says
+  as_now,           // what the revolution says of each point
+  structure,        // so far, whatever the revolution says
+  structure_again,  // so it was before it went out of the window: also where no surface is known
+                    // yet
   object,
 };
 
@@ -26,18 +28,38 @@ class Verdicts {
     revolutions_ = static_cast<std::uint8_t>(std::min(revolutions_ + 1, kRemembered));
     share_ += ((is_structure ? 1.0F : 0.0F) - share_) / static_cast<float>(revolutions_);
     const bool was_structure = std::exchange(last_, is_structure);
-    if (!is_structure) return share_ > kMostOfObject ? Verdict::structure : Verdict::as_now;
-    return !was_structure && share_ < kLeastOfStructure ? Verdict::object : Verdict::as_now;
+    if (!is_structure) {
+      if (share_ <= kMostOfObject) return Verdict::as_now;
+      return is_back_ ? Verdict::structure_again : Verdict::structure;
+    }
+    const bool is_believed = was_structure && !is_back_;
+    return !is_believed && share_ < kLeastOfStructure ? Verdict::object : Verdict::as_now;
+  }
+
+  [[nodiscard]] bool is_empty() const noexcept { return revolutions_ == 0; }
+  // Whether they tell enough of a place to be remembered when it goes out of the window.
+  [[nodiscard]] bool are_settled() const noexcept { return revolutions_ >= kSettled; }
+  // Of a place that is in the window again: things may have been moved, so that what was decided of
+  // it weighs half as much. But twice in a row is not enough for an object to become structure:
+  // what is seen of it at first is as little as it was when nothing was known.
+  [[nodiscard]] Verdicts back() const noexcept {
+    Verdicts verdicts = *this;
+    verdicts.revolutions_ =
+        std::min(verdicts.revolutions_, static_cast<std::uint8_t>(kRemembered / 2));
+    verdicts.is_back_ = !is_empty();
+    return verdicts;
   }
 
  private:
   static constexpr int kRemembered = 16;  // revolutions; older ones fade
+  static constexpr int kSettled = 4;
   static constexpr float kMostOfObject = 0.5F;
   static constexpr float kLeastOfStructure = 0.3F;
 
   float share_ = 0.0F;  // of the revolutions in which it was structure
   std::uint8_t revolutions_ = 0;
   bool last_ = true;
+  bool is_back_ = false;
 };
 
 }  // namespace convexcut::robust

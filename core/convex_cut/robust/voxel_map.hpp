@@ -23,6 +23,7 @@ inline constexpr float kVoxelM = 0.2F;
 // A voxel's place on the lattice, 21 bits an axis: ±200 km.
 using VoxelKey = std::uint64_t;
 using Lattice = std::array<std::int32_t, 3>;
+inline constexpr VoxelKey kFibonacci = 0x9E3779B97F4A7C15U;  // hashing (Knuth, vol. 3, 6.4)
 // Far outside of the lattice all is one border: such points have no neighbours to agree with.
 inline constexpr std::int32_t kLatticeBias = 1 << 20;
 inline constexpr auto kLatticeLimit = static_cast<float>(kLatticeBias - 2);
@@ -136,8 +137,7 @@ class VoxelMap {
     return key & ~kWithin;
   }
   [[nodiscard]] std::size_t home_of(VoxelKey block) const noexcept {
-    constexpr VoxelKey kGolden = 0x9E3779B97F4A7C15U;  // Fibonacci hashing (Knuth, vol. 3, 6.4)
-    return static_cast<std::size_t>((block * kGolden) >> 40U) & (slots_.size() - 1);
+    return static_cast<std::size_t>((block * kFibonacci) >> 40U) & (slots_.size() - 1);
   }
   [[nodiscard]] std::size_t find_or_add_block(VoxelKey key) noexcept;
   void put(std::size_t voxel, std::size_t block_begin) noexcept;

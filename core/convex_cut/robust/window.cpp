@@ -23,7 +23,7 @@ constexpr std::int32_t kHardlyChanged = 3;  // a third of the points; in a full 
 }  // namespace
 
 Window::Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std::size_t voxels)
-    : slots_(revolutions), map_(voxels) {
+    : slots_(revolutions), map_(voxels), memory_(voxels) {
   entries_.resize(std::max({std::size_t{1}, voxels_per_revolution,
                             revolutions * std::min(voxels_per_revolution, kUsualVoxels)}));
   merged_.resize(voxels_per_revolution);
@@ -31,6 +31,7 @@ Window::Window(std::uint32_t revolutions, std::size_t voxels_per_revolution, std
 
 void Window::clear() noexcept {
   map_.clear();
+  memory_.clear();
   oldest_ = newest_ = 0;
   used_ = 0;
   shapes_taken_ = 0;
@@ -79,6 +80,7 @@ void Window::merge(const VoxelMap& revolution, const Vec3f& origin) noexcept {
     merged_[i] = index;
     if (index == VoxelMap::kNone) continue;
     Voxel& merged = map_.voxels()[static_cast<std::size_t>(index)];
+    if (merged.verdicts.is_empty()) merged.verdicts = memory_.find(voxel.key).back();
     merged.change(voxel.moments, +1);
     merged.revolution = newest_;
     entry(slot, slot.count++) = {voxel.key, voxel.moments};
@@ -100,6 +102,10 @@ void Window::forget_oldest() noexcept {
 }
 
 void Window::remove_empty() noexcept {
+  for (const Voxel& voxel : map_.voxels()) {
+    if (voxel.moments.count > 0 || !voxel.verdicts.are_settled()) continue;
+    memory_.put(voxel.key, voxel.verdicts);
+  }
   map_.remove_empty();
   has_empty_ = false;
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/convex_cut/robust/verdict_memory.hpp"
 #include "core/convex_cut/robust/voxel_map.hpp"
 #include "core/geometry.hpp"
 #include "core/workspace.hpp"
@@ -48,8 +49,8 @@ class Window {
   [[nodiscard]] std::int32_t merged(std::size_t voxel_of_revolution) const noexcept {
     return merged_[voxel_of_revolution];
   }
-  // Once a revolution: adds what was decided of such a voxel. As long as it is in the window, that
-  // is remembered.
+  // Once a revolution: adds what was decided of such a voxel. That is remembered as long as it is
+  // in the window, and by half its weight when it comes back.
   [[nodiscard]] Verdict judge(std::size_t voxel_of_revolution, bool is_structure) noexcept {
     const std::int32_t index = merged_[voxel_of_revolution];
     if (index == VoxelMap::kNone) return Verdict::as_now;
@@ -82,6 +83,7 @@ class Window {
   std::uint32_t newest_ = 0;
   std::size_t newest_slot_ = 0;
   VoxelMap map_;
+  VerdictMemory memory_;            // of voxels that were in it
   bool has_empty_ = false;          // voxels without points, perhaps
   Workspace<std::int32_t> merged_;  // by voxel of a revolution
   std::uint32_t shapes_taken_ = 0;  // times
