@@ -358,7 +358,8 @@ bool RobustCut::judge_voxels() noexcept {
   bool any = false;
   for (std::size_t i = 0; i < near_.size(); ++i) {
     Near& near = near_[i];
-    near.verdict = window_.judge(i, 2 * near.structure > revolution_.voxels()[i].moments.count);
+    const Voxel& voxel = revolution_.voxels()[i];
+    near.verdict = window_.judge(i, voxel.key, 2 * near.structure > voxel.moments.count);
     any |= near.verdict != robust::Verdict::as_now;
   }
   return any;
@@ -388,7 +389,7 @@ bool RobustCut::is_restored(robust::Verdict verdict, const Vec3f& p,
   const bool is_back = verdict == robust::Verdict::structure_again;
   if (verdict != robust::Verdict::structure && !is_back) return false;
   const std::int32_t merged = window_.merged(voxel);
-  if (!is_known(merged)) return false;
+  if (!is_known(merged)) return is_back;
   const Surfel& surfel = model_.surfels[static_cast<std::size_t>(merged)];
   if (surfel.mirrored) return false;
   if (is_back ? !has_normal(surfel.shape) : surfel.shape != robust::Shape::plane) return is_back;

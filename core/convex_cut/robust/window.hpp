@@ -50,10 +50,11 @@ class Window {
     return merged_[voxel_of_revolution];
   }
   // Once a revolution: adds what was decided of such a voxel. That is remembered as long as it is
-  // in the window, and by half its weight when it comes back.
-  [[nodiscard]] Verdict judge(std::size_t voxel_of_revolution, bool is_structure) noexcept {
+  // in the window, and by half its weight when it comes back, also before it is added.
+  [[nodiscard]] Verdict judge(std::size_t voxel_of_revolution, VoxelKey key,
+                              bool is_structure) noexcept {
     const std::int32_t index = merged_[voxel_of_revolution];
-    if (index == VoxelMap::kNone) return Verdict::as_now;
+    if (index == VoxelMap::kNone) return memory_.find(key).back().add(is_structure);
     return map_.voxels()[static_cast<std::size_t>(index)].verdicts.add(is_structure);
   }
 

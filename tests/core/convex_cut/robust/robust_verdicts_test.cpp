@@ -145,7 +145,7 @@ class RobustWindowMemory : public ::testing::Test {
   // A revolution that sees this place alone.
   Verdict see(VoxelKey key, bool is_structure) {
     window.add(revolution_at(key), Vec3f::Zero(), kRevolutions);
-    return window.judge(0, is_structure);
+    return window.judge(0, key, is_structure);
   }
   void see_as_structure(int times) {
     for (int i = 0; i < times; ++i) see(kPlace, true);
@@ -164,6 +164,19 @@ TEST_F(RobustWindowMemory, KnowsAPlaceAgainThatWasOutOfIt) {
   EXPECT_EQ(see(kPlace, false), Verdict::structure_again);
   look_elsewhere();
   EXPECT_EQ(see(kPlace, false), Verdict::structure_again);
+}
+
+TEST_F(RobustWindowMemory, KnowsItBeforeItIsAdded) {
+  see_as_structure(8);
+  look_elsewhere();
+  for (int i = 0; i < 2; ++i) {  // that changes nothing
+    window.look_up(revolution_at(kPlace));
+    EXPECT_EQ(window.judge(0, kPlace, false), Verdict::structure_again);
+  }
+  EXPECT_EQ(see(kPlace, false), Verdict::structure_again);
+  window.clear();
+  window.look_up(revolution_at(kPlace));
+  EXPECT_EQ(window.judge(0, kPlace, false), Verdict::as_now);
 }
 
 TEST_F(RobustWindowMemory, TakesWhatStayedInItForNoneOfThose) {
@@ -187,14 +200,18 @@ TEST_F(RobustWindowMemory, StartsAnewWithNothing) {
 
 // The share of the last box's points that is kept in revolutions [from, to) of a lidar that turns
 // once in thirty, with a window of six.
-[[nodiscard]] double kept_in(const test::BoxRoom& room, test::Sight sight, int from, int to) {
+[[nodiscard]] double kept_in(const test::BoxRoom& room, test::Sight sight, int from, int to,
+                             bool at_once = false) {
   RobustCut robust({.window = 6}, test::kMostPoints);
   std::size_t all = 0;
   std::size_t kept = 0;
   for (int i = 0; i < to; ++i) {
     const test::LabelledCloud seen = test::revolution_in(room, sight);
     std::vector<Label> labels(seen.cloud.size(), Label::other);
-    EXPECT_EQ(robust.label(seen.cloud.view(), labels), CutStatus::ok);
+    const CutStatus status = at_once ? robust.label_at_once(seen.cloud.view(), labels)
+                                     : robust.label(seen.cloud.view(), labels);
+    EXPECT_EQ(status, CutStatus::ok);
+    EXPECT_EQ(robust.learn(), at_once && i > 0);  // the first was learnt from at once
     sight.yaw_deg += 12.0;
     ++sight.seed;
     for (std::size_t k = 0; i >= from && k < labels.size(); ++k) {
@@ -220,6 +237,8 @@ TEST(RobustReturn, APillarIsKnownAgainByItsFirstPoints) {
   const test::Sight sight{.tilt_deg = 30.0, .firings = 400};
   EXPECT_LT(kept_in(room, sight, 19, 24), 0.8);
   EXPECT_GT(kept_in(room, sight, 49, 54), 0.93);
+  EXPECT_LT(kept_in(room, sight, 19, 24, true), 0.8);
+  EXPECT_GT(kept_in(room, sight, 49, 54, true), 0.9);
 }
 
 // Its front is in view before anything is seen over it.
