@@ -383,7 +383,7 @@ void RobustCut::steady(const CloudView& cloud, std::span<Label> labels) const no
 }
 
 // Whether the point is structure by what was decided of its voxel in earlier revolutions: on the
-// window's piece of surface there.
+// window's piece of surface there; anywhere, where that is not known yet of a place that is back.
 bool RobustCut::is_restored(robust::Verdict verdict, const Vec3f& p,
                             std::size_t voxel) const noexcept {
   const bool is_back = verdict == robust::Verdict::structure_again;
@@ -392,7 +392,9 @@ bool RobustCut::is_restored(robust::Verdict verdict, const Vec3f& p,
   if (!is_known(merged)) return is_back;
   const Surfel& surfel = model_.surfels[static_cast<std::size_t>(merged)];
   if (surfel.mirrored) return false;
-  if (is_back ? !has_normal(surfel.shape) : surfel.shape != robust::Shape::plane) return is_back;
+  const bool has_surface =
+      is_back ? has_normal(surfel.shape) : surfel.shape == robust::Shape::plane;
+  if (!has_surface) return is_back;
   return std::abs(surfel.direction.dot(p - surfel.mean)) <= parameters_.band_m;
 }
 

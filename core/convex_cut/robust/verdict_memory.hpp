@@ -26,7 +26,7 @@ class VerdictMemory {
   void clear() noexcept { std::fill(sets_.begin(), sets_.end(), Set{}); }
 
   void put(VoxelKey key, const Verdicts& verdicts) noexcept {
-    Set& set = sets_[index_of(key)];
+    Set& set = sets_[slot_of(key, sets_.size())];
     std::size_t way = way_of(set, key);
     if (way == kWays) way = set.next++ % kWays;
     set.keys.at(way) = key;
@@ -34,7 +34,7 @@ class VerdictMemory {
   }
   // Those of no revolution where nothing is known.
   [[nodiscard]] Verdicts find(VoxelKey key) const noexcept {
-    const Set& set = sets_[index_of(key)];
+    const Set& set = sets_[slot_of(key, sets_.size())];
     const std::size_t way = way_of(set, key);
     return way == kWays ? Verdicts{} : set.verdicts.at(way);
   }
@@ -50,9 +50,6 @@ class VerdictMemory {
   [[nodiscard]] static std::size_t way_of(const Set& set, VoxelKey key) noexcept {
     return static_cast<std::size_t>(std::find(set.keys.begin(), set.keys.end(), key) -
                                     set.keys.begin());
-  }
-  [[nodiscard]] std::size_t index_of(VoxelKey key) const noexcept {
-    return static_cast<std::size_t>((key * kFibonacci) >> 32U) & (sets_.size() - 1);
   }
 
   std::vector<Set> sets_;  // a power of two of them

@@ -13,8 +13,7 @@ namespace convexcut::robust {
 enum class Verdict : std::uint8_t {
   as_now,           // what the revolution says of each point
   structure,        // so far, whatever the revolution says
-  structure_again,  // so it was before it went out of the window: also where no surface is known
-                    // yet
+  structure_again,  // as before it left the window, also where no surface is known yet
   object,
 };
 

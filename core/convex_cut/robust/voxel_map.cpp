@@ -69,20 +69,4 @@ std::int32_t VoxelMap::find_or_add(VoxelKey key) noexcept {
   return static_cast<std::int32_t>(voxels_.size() - 1);
 }
 
-void VoxelMap::remove_empty() noexcept {
-  std::size_t kept = 0;
-  for (const Voxel& voxel : voxels_) {
-    if (voxel.moments.count > 0) {
-      places_[voxel.place] = static_cast<std::int32_t>(kept);
-      voxels_[kept++] = voxel;
-    } else {
-      places_[voxel.place] = kNone;
-      if (--block_voxels_[voxel.place / kBlock] == 0) ++empty_blocks_;
-    }
-  }
-  voxels_.resize(kept);
-  // Blocks stay where they are, and what moved on leaves empty ones behind.
-  if (2 * empty_blocks_ > block_voxels_.size()) lay_out_anew();
-}
-
 }  // namespace convexcut::robust

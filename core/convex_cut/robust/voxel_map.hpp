@@ -23,7 +23,6 @@ inline constexpr float kVoxelM = 0.2F;
 // A voxel's place on the lattice, 21 bits an axis: ±200 km.
 using VoxelKey = std::uint64_t;
 using Lattice = std::array<std::int32_t, 3>;
-inline constexpr VoxelKey kFibonacci = 0x9E3779B97F4A7C15U;  // hashing (Knuth, vol. 3, 6.4)
 // Far outside of the lattice all is one border: such points have no neighbours to agree with.
 inline constexpr std::int32_t kLatticeBias = 1 << 20;
 inline constexpr auto kLatticeLimit = static_cast<float>(kLatticeBias - 2);
@@ -33,6 +32,11 @@ inline constexpr auto kLatticeLimit = static_cast<float>(kLatticeBias - 2);
     return static_cast<VoxelKey>(c + kLatticeBias) & 0x1F'FFFF;
   };
   return (part(place[0]) << 42U) | (part(place[1]) << 21U) | part(place[2]);
+}
+// Where to look for it first among so many slots, a power of two and at most 2²⁴.
+[[nodiscard]] constexpr std::size_t slot_of(VoxelKey key, std::size_t slots) noexcept {
+  constexpr VoxelKey kGolden = 0x9E3779B97F4A7C15U;  // Fibonacci hashing (Knuth, vol. 3, 6.4)
+  return static_cast<std::size_t>((key * kGolden) >> 40U) & (slots - 1);
 }
 [[nodiscard]] inline Lattice place_of(VoxelKey key) noexcept {
   const auto part = [](VoxelKey bits) {
@@ -100,8 +104,9 @@ class VoxelMap {
   }
   // Its index; a new empty voxel where there is none; kNone when the map is full.
   [[nodiscard]] std::int32_t find_or_add(VoxelKey key) noexcept;
-  // Removes the voxels without points. Indices change.
-  void remove_empty() noexcept;
+  // Removes the voxels without points, and calls visit(voxel) for each. Indices change.
+  template <class Visit>
+  void remove_empty(Visit&& visit) noexcept;
 
   [[nodiscard]] std::span<Voxel> voxels() noexcept { return voxels_; }
   [[nodiscard]] std::span<const Voxel> voxels() const noexcept { return voxels_; }
@@ -137,7 +142,7 @@ class VoxelMap {
     return key & ~kWithin;
   }
   [[nodiscard]] std::size_t home_of(VoxelKey block) const noexcept {
-    return static_cast<std::size_t>((block * kFibonacci) >> 40U) & (slots_.size() - 1);
+    return slot_of(block, slots_.size());
   }
   [[nodiscard]] std::size_t find_or_add_block(VoxelKey key) noexcept;
   void put(std::size_t voxel, std::size_t block_begin) noexcept;
@@ -150,6 +155,24 @@ class VoxelMap {
   std::size_t empty_blocks_ = 0;
   std::vector<Voxel> voxels_;
 };
+
+template <class Visit>
+void VoxelMap::remove_empty(Visit&& visit) noexcept {
+  std::size_t kept = 0;
+  for (const Voxel& voxel : voxels_) {
+    if (voxel.moments.count > 0) {
+      places_[voxel.place] = static_cast<std::int32_t>(kept);
+      voxels_[kept++] = voxel;
+    } else {
+      visit(voxel);
+      places_[voxel.place] = kNone;
+      if (--block_voxels_[voxel.place / kBlock] == 0) ++empty_blocks_;
+    }
+  }
+  voxels_.resize(kept);
+  // Blocks stay where they are, and what moved on leaves empty ones behind.
+  if (2 * empty_blocks_ > block_voxels_.size()) lay_out_anew();
+}
 
 // Where the voxels are that lie around one, itself among them: those of up to eight blocks.
 class Neighbourhood {

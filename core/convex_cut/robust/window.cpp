@@ -102,11 +102,9 @@ void Window::forget_oldest() noexcept {
 }
 
 void Window::remove_empty() noexcept {
-  for (const Voxel& voxel : map_.voxels()) {
-    if (voxel.moments.count > 0 || !voxel.verdicts.are_settled()) continue;
-    memory_.put(voxel.key, voxel.verdicts);
-  }
-  map_.remove_empty();
+  map_.remove_empty([&](const Voxel& voxel) {
+    if (voxel.verdicts.are_settled()) memory_.put(voxel.key, voxel.verdicts);
+  });
   has_empty_ = false;
 }
 

@@ -37,11 +37,15 @@ Verdict add(Verdicts& verdicts, std::string_view decisions) {
   Verdicts verdicts;
   return add(verdicts, decisions);
 }
+[[nodiscard]] Verdicts verdicts_of(std::string_view decisions) {
+  Verdicts verdicts;
+  add(verdicts, decisions);
+  return verdicts;
+}
+
 // The last of those to what was decided once the place was back, after it had gone.
 [[nodiscard]] Verdict verdict_after(std::string_view before, std::string_view decisions) {
-  Verdicts verdicts;
-  add(verdicts, before);
-  Verdicts back = verdicts.back();
+  Verdicts back = verdicts_of(before).back();
   return add(back, decisions);
 }
 
@@ -84,12 +88,6 @@ TEST(RobustVerdicts, TwoInARowMakeNoStructureOfAnObjectThatIsBack) {
   EXPECT_EQ(verdict_after("", "ss"), Verdict::as_now);
 }
 
-[[nodiscard]] Verdicts verdicts_of(std::string_view decisions) {
-  Verdicts verdicts;
-  add(verdicts, decisions);
-  return verdicts;
-}
-
 // They are of structure: one that says otherwise is overruled.
 [[nodiscard]] bool is_structure(Verdicts verdicts) {
   return verdicts.add(false) == Verdict::structure;
@@ -127,7 +125,32 @@ TEST(RobustVerdictMemory, ForgetsOnlyTheOldestWhenItIsFull) {
   EXPECT_GE(known_of_newest, kRoom * 9 / 10);  // sets are filled unevenly
 }
 
-// One voxel with points, and its place in the map.
+// Floor, ceiling and walls of a room of 12 × 9 × 3 m: keys that differ in few of their bits.
+[[nodiscard]] std::vector<VoxelKey> places_of_a_room() {
+  constexpr robust::Lattice kSize{60, 45, 15};
+  std::vector<VoxelKey> places;
+  for (std::int32_t x = 0; x < kSize[0]; ++x) {
+    for (std::int32_t y = 0; y < kSize[1]; ++y) {
+      for (std::int32_t z = 0; z < kSize[2]; ++z) {
+        const bool inside =
+            x > 0 && y > 0 && z > 0 && x + 1 < kSize[0] && y + 1 < kSize[1] && z + 1 < kSize[2];
+        if (!inside) places.push_back(robust::key_of({x, y, z}));
+      }
+    }
+  }
+  return places;
+}
+
+TEST(RobustVerdictMemory, KnowsAllOfARoomThatIsASixthOfIt) {
+  const std::vector<VoxelKey> places = places_of_a_room();
+  VerdictMemory memory(6 * places.size());
+  for (const VoxelKey key : places) memory.put(key, verdicts_of("ssss"));
+  std::size_t known = 0;
+  for (const VoxelKey key : places) known += memory.find(key).is_empty() ? 0U : 1U;
+  EXPECT_EQ(known, places.size());
+}
+
+// One voxel with points.
 [[nodiscard]] VoxelMap revolution_at(VoxelKey key) {
   VoxelMap map(4);
   for (int i = 0; i < 10; ++i) {
