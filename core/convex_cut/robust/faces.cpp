@@ -52,21 +52,6 @@ constexpr float kQuarter = std::numbers::pi_v<float> / 2;
   return largest;
 }
 
-// About the middle of its cells. Each keeps its points: what the plane recedes there is added.
-void turn(Plane& plane, PlaneGrids& grids, const PlaneGrid& grid, const Vec3f& middle, float along,
-          float up) noexcept {
-  const Plane before = plane;
-  plane.normal = (plane.normal - grid.along * along - grid.up * up).normalized();
-  plane.offset = -plane.normal.dot(middle);
-  for (std::int32_t row = 0; row < grid.rows; ++row) {
-    for (std::int32_t column = 0; column < grid.columns; ++column) {
-      Cell& cell = grids.cell(grid, column, row);
-      cell.height_sum_m +=
-          static_cast<float>(cell.points) * plane.height_of(grid.centre(before, column, row));
-    }
-  }
-}
-
 }  // namespace
 
 Faces::Faces() {
@@ -84,7 +69,7 @@ void Faces::lay(Model& model, PlaneGrids& grids) noexcept {
     const PlaneGrid& grid = grids.grid(wall.plane);
     const Vec3f middle =
         grid.along * wall.middle_along_m + grid.up * wall.middle_up_m - plane.normal * plane.offset;
-    turn(plane, grids, grid, middle, tilt.along, tilt.up);
+    grids.turn(plane, grid, middle, tilt.along, tilt.up);
   }
 }
 
@@ -97,7 +82,8 @@ void Faces::take_walls(const Model& model, const PlaneGrids& grids) noexcept {
   const Vec3f up = floor == nullptr ? Vec3f(Vec3f::UnitZ()) : floor->normal;
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     const Plane& plane = model.planes[k];
-    if (!plane.accepted || !plane.vertical || plane.surfels < kLargeFaceSurfels) continue;
+    if (!plane.accepted || !plane.vertical || plane.stepped) continue;
+    if (plane.surfels < kLargeFaceSurfels) continue;
     Wall wall;
     wall.plane = k;
     wall.first = cells_.size();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/convex_cut/robust/height_votes.hpp"
+#include "core/convex_cut/robust/steps.hpp"
 
 namespace convexcut::robust {
 namespace {
@@ -129,10 +130,12 @@ struct Surroundings {
 Fixtures::Fixtures() { layer_.reserve(kMostCells); }
 
 void Fixtures::find(Model& model, PlaneGrids& grids) noexcept {
+  set_stepped_walls_upright(model, grids);
   faces_.lay(model, grids);
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     Plane& plane = model.planes[k];
-    if (!plane.accepted || !plane.vertical || plane.surfels < kLargeFaceSurfels) continue;
+    const bool has_face = plane.stepped || plane.surfels >= kLargeFaceSurfels;
+    if (!plane.accepted || !plane.vertical || !has_face) continue;
     const PlaneGrid& grid = grids.grid(k);
     WallFace face{face_of(grids, grid), has_glass(grids, grid) ? kProudOfGlassM : kProudM};
     face.height_m = wall_behind(model, grids, k, face).value_or(face.height_m);

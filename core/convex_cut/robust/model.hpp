@@ -43,6 +43,7 @@ struct Plane {
   bool edge_on = false;   // was mostly seen along itself: rings of the lidar, no surface
   bool vertical = false;  // a wall or the front of something; else a floor, a ceiling, a slope
   bool accepted = false;  // some of its cells are structure
+  bool stepped = false;   // a board and the wall below it
 
   [[nodiscard]] float height_of(const Vec3f& p) const noexcept { return normal.dot(p) + offset; }
 };

@@ -71,6 +71,20 @@ void PlaneGrids::build(Model& model) noexcept {
   mark_passed(model);
 }
 
+void PlaneGrids::turn(Plane& plane, const PlaneGrid& grid, const Vec3f& about, float along,
+                      float up) noexcept {
+  const Plane before = plane;
+  plane.normal = (plane.normal - grid.along * along - grid.up * up).normalized();
+  plane.offset = -plane.normal.dot(about);
+  for (std::int32_t row = 0; row < grid.rows; ++row) {
+    for (std::int32_t column = 0; column < grid.columns; ++column) {
+      Cell& of_grid = cell(grid, column, row);
+      of_grid.height_sum_m +=
+          static_cast<float>(of_grid.points) * plane.height_of(grid.centre(before, column, row));
+    }
+  }
+}
+
 void PlaneGrids::lay_out(Model& model) noexcept {
   std::array<Bounds, PlaneSearch::kMostPlanes> bounds;
   for (const Plane& plane : model.planes) grids_.push_back(axes_of(plane));

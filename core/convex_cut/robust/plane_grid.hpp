@@ -99,6 +99,10 @@ class PlaneGrids {
 
   // For the model's planes; a plane that no room is left for loses its surfels.
   void build(Model& model) noexcept;
+  // Turns a vertical plane about a point on it, by small slopes over itself along its axes. Its
+  // cells keep their points: what the plane recedes there is added to their heights.
+  void turn(Plane& plane, const PlaneGrid& grid, const Vec3f& about, float along,
+            float up) noexcept;
 
   [[nodiscard]] const PlaneGrid& grid(std::size_t plane) const noexcept { return grids_[plane]; }
   [[nodiscard]] Cell& cell(const PlaneGrid& grid, std::int32_t column, std::int32_t row) noexcept {

@@ -217,6 +217,8 @@ void Walls::take_columns(const Model& model, const PlaneGrids& grids, std::size_
         column.open_above = cell.seen == 0;
       }
     }
+    column.is_gap =
+        column.open >= kLeastPassed && column.seen < kLeastSeen && through == column.seen;
     // What ends within a cell does not let through what passes over it.
     const bool ends_within =
         through == 1 && column.open_above && grids.cell(grid, c, column.top).passed >= kPassed;
@@ -248,10 +250,14 @@ void Walls::split(Model& model, const PlaneGrids& grids, std::size_t plane,
                   bool free_space) noexcept {
   const auto count = static_cast<std::int32_t>(columns_.size());
   const auto seen = [this](std::int32_t c) { return columns_[static_cast<std::size_t>(c)].seen; };
+  const auto is_gap = [this](std::int32_t c) {
+    return columns_[static_cast<std::size_t>(c)].is_gap;
+  };
   for (std::int32_t first = 0; first < count; ++first) {
-    if (seen(first) == 0) continue;
+    if (seen(first) == 0 || is_gap(first)) continue;
     std::int32_t last = first;
     for (std::int32_t c = first; c < count && c - last <= kGap; ++c) {
+      if (is_gap(c)) break;
       if (seen(c) > 0) last = c;
     }
     if (free_space) {

@@ -30,6 +30,7 @@ class Walls {
     std::int32_t open = 0;  // cells that rays pass between floor and ceiling, and is not glass
     std::int32_t bottom = 0, top = -1;
     bool open_above = false;  // the highest of these is above the top
+    bool is_gap = false;      // passed, also where it is seen: what is beyond is something else
   };
   void take_columns(const Model& model, const PlaneGrids& grids, std::size_t plane) noexcept;
   [[nodiscard]] static bool goes_up_to_ceiling(const Model& model, const PlaneGrids& grids,

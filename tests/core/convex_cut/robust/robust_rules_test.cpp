@@ -132,6 +132,13 @@ TEST(RobustRules, RemovesABoardThatStandsFreeBesideALeg) {
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
+// As tall as the board, in its plane: rays between them tell that they are two things.
+TEST(RobustRules, RemovesABoardThatStandsFreeBesideACupboardInItsPlane) {
+  BoxRoom room;
+  room.boxes = {{{1.8, -0.8, -1.2}, {1.85, 0.8, 0.7}}, {{1.8, 1.3, -1.2}, {2.2, 1.9, 0.7}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
+}
+
 // What is short and hangs alone is a lamp.
 TEST(RobustRules, KeepsASmallPaneInThePlaneOfALargeOne) {
   BoxRoom room;
@@ -155,6 +162,9 @@ TEST(RobustRules, RemovesALowFrontThatIsLookedOverInASmallPart) {
   BoxRoom room;
   room.walls = {{-4.0, -4.0, -1.2}, {4.0, 4.0, 1.6}};
   room.boxes = {{{2.0, -4.0, -1.2}, {2.4, 3.0, -0.25}}, {{0.9, -2.0, -0.11}, {0.95, 1.18, 1.6}}};
+  EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
+  // It goes on behind a post.
+  room.boxes.push_back({{0.9, 0.45, -1.2}, {0.95, 0.61, -0.11}});
   EXPECT_LT(cut(room, {}).share_of(0), kRemoved);
 }
 
