@@ -78,8 +78,7 @@ void Faces::take_walls(const Model& model, const PlaneGrids& grids) noexcept {
   walls_.clear();
   const Plane* largest = largest_wall(model);
   if (largest == nullptr) return;
-  const Plane* floor = largest_floor(model);
-  const Vec3f up = floor == nullptr ? Vec3f(Vec3f::UnitZ()) : floor->normal;
+  const Vec3f up = up_of(model);
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     const Plane& plane = model.planes[k];
     if (!plane.accepted || !plane.vertical || plane.stepped) continue;

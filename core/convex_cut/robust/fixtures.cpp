@@ -23,7 +23,6 @@ constexpr float kDoorHeightM = 1.5F;
 constexpr float kHalfDoorHeightM = 1.0F;   // of one whose foot is hidden
 constexpr float kRoomHighM = 2.2F;         // a layer as high as that is a part of the wall
 constexpr float kLeastHeadM = 1.7F;        // over the floor: of doors and windows
-constexpr float kFootM = 0.35F;            // cells below have points of the floor
 constexpr float kLeastWallShare = 0.125F;  // of the cells seen of it
 constexpr float kLeastGlass = 0.2F;        // share of a layer's cells that rays go through
 constexpr float kLeastGlassOfFace = 0.1F;  // the same of a face's
@@ -254,7 +253,7 @@ bool Fixtures::goes_on_below(const Model& model, const PlaneGrids& grids, std::s
   std::int32_t lowest = grid.rows;
   std::int32_t highest = 0;
   for (const Place& at : layer_) {
-    if (height_m(at.column, at.row) < kFootM) continue;
+    if (height_m(at.column, at.row) < kFloorReachM) continue;
     ++cells;
     lowest = std::min(lowest, at.row);
     highest = std::max(highest, at.row);

@@ -18,6 +18,7 @@
 namespace convexcut::robust {
 
 inline constexpr float kCellM = 0.25F;
+inline constexpr float kFloorReachM = 0.35F;  // over the floor: cells below have points of it
 inline constexpr float kInFrontM = 0.05F;  // a ray that starts nearer to a plane says nothing of it
 
 // Cells around structure that belong to it: of flat surfaces, between two rings on a far floor; of

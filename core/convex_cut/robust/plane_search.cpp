@@ -240,6 +240,11 @@ const Plane* largest_floor(const Model& model) noexcept {
   return floor;
 }
 
+Vec3f up_of(const Model& model) noexcept {
+  const Plane* floor = largest_floor(model);
+  return floor == nullptr ? Vec3f(Vec3f::UnitZ()) : floor->normal;
+}
+
 PlaneSearch::PlaneSearch(std::size_t max_surfels)
     : left_(max_surfels), near_(max_surfels), sampled_(2 * kTested) {
   agree_.resize(max_surfels / 64 + 1);

@@ -20,6 +20,8 @@ inline constexpr std::uint32_t kLeastSurfels = 12;
 
 // Of the planes that are level and face upwards, the one of most surfels; null without any.
 [[nodiscard]] const Plane* largest_floor(const Model& model) noexcept;
+// Upwards: the normal of that, or z where there is none.
+[[nodiscard]] Vec3f up_of(const Model& model) noexcept;
 
 class PlaneSearch {
  public:

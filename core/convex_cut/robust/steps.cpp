@@ -14,7 +14,6 @@ constexpr float kMostLean = 0.05F;
 constexpr float kLeastStepM = 0.02F;
 constexpr std::int32_t kLeastCells = 3;  // of each part
 constexpr float kBetter = 0.6F;          // sum of squares, of that about the leaning plane
-constexpr float kFootM = 0.35F;          // over the floor: cells below have points of it
 
 // Of heights.
 struct Sums {
@@ -54,7 +53,6 @@ void add_row(const PlaneGrids& grids, const PlaneGrid& grid, std::int32_t row, f
     add_row(grids, grid, row, 0.0F, leaning);
     add_row(grids, grid, row, lean, upright);
   }
-  if (upright.count < 2 * kLeastCells) return false;
   Sums lower;
   for (std::int32_t row = first; row < grid.rows; ++row) {
     add_row(grids, grid, row, lean, lower);
@@ -71,8 +69,7 @@ void add_row(const PlaneGrids& grids, const PlaneGrid& grid, std::int32_t row, f
 }  // namespace
 
 void set_stepped_walls_upright(Model& model, PlaneGrids& grids) noexcept {
-  const Plane* floor = largest_floor(model);
-  const Vec3f up = floor == nullptr ? Vec3f(Vec3f::UnitZ()) : floor->normal;
+  const Vec3f up = up_of(model);
   for (std::size_t k = 0; k < model.planes.size(); ++k) {
     Plane& plane = model.planes[k];
     if (!plane.accepted || !plane.vertical) continue;
@@ -80,7 +77,7 @@ void set_stepped_walls_upright(Model& model, PlaneGrids& grids) noexcept {
     if (lean > -kLeastLean || lean < -kMostLean) continue;
     const PlaneGrid& grid = grids.grid(k);
     std::int32_t first = 0;
-    while (grid.centre(plane, 0, first).z() < model.floor_z + kFootM) ++first;
+    while (grid.centre(plane, 0, first).z() < model.floor_z + kFloorReachM) ++first;
     if (!has_step(grids, grid, first, lean)) continue;
     grids.turn(plane, grid, grid.centre(plane, grid.columns / 2, grid.rows / 2), 0.0F, lean);
     plane.stepped = true;
